@@ -50,7 +50,7 @@ void starburst_kept_over_frames(benchmark::State& state) {
   StarburstSettings settings = at_f16();
   settings.radius_px = 2250.0;
   const Starburst starburst = make_starburst(IrisOpening(iris_of(state)), bands, settings).value();
-  const StarburstSheet sheet = lay_out(starburst, kWidth, kHeight).value();
+  const StarburstImage sheet = lay_out(starburst, kWidth, kHeight).value();
   Image image(kWidth, kHeight);
   double x = 900.3;
   for (auto _ : state) {

@@ -32,7 +32,7 @@ struct PacketScene {
     out.sensor_x_mm = at(0);
     out.sensor_y_mm = at(1);
     out.transmission = at(2);
-    out.r_rel = at(3);
+    out.relative_height = at(3);
     out.stop_x = {at(4), at(5), at(6)};
     out.stop_y = {at(7), at(8), at(9)};
     return out;

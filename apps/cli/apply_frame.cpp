@@ -51,7 +51,7 @@ Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const Len
   planned.files = *files;
   auto plan = plan_flare(planned.picture, lens, options.values);
   if (!plan) {
-    if (plan.error().place.file.empty()) plan.error().place.file = options.input;
+    if (plan.error().position.file.empty()) plan.error().position.file = options.input;
     return tl::unexpected(plan.error());
   }
   planned.plan = std::move(*plan);

@@ -76,7 +76,7 @@ Result<int> run_compare(const CompareOptions& options) {
   const auto comparison = compare(a->rgb, b->rgb);
   if (!comparison) {
     Error error = comparison.error();
-    error.place.file = options.b;
+    error.position.file = options.b;
     return tl::unexpected(error);
   }
   if (a->data_window.x != b->data_window.x || a->data_window.y != b->data_window.y) {

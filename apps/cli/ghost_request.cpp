@@ -12,7 +12,7 @@ constexpr int kDefaultBands = 6;  // fluxes are then accurate to some per cent
 std::vector<SpectralBand> bands_for(const params::Values& values, const Light& light) {
   if (const auto lambda_nm = values.real("wavelength")) return {{*lambda_nm, {1.0, 1.0, 1.0}}};
   const int given = *params::parse_wavelengths(*values.text("wavelengths"));
-  return spectral_bands(given == kWavelengthsByNeed ? kDefaultBands : given, light.spectrum, ColourSpace::Rec709);
+  return spectral_bands(given == kAutoWavelengths ? kDefaultBands : given, light.spectrum, ColourSpace::Rec709);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Json shape_json(double curvature_per_mm, const SurfaceShape& shape) {
   if (shape.has_axial_symmetry()) return out;
   out["curvature_x_per_mm"] = shape.curvature_x_per_mm;
   out["conic_x"] = shape.conic_x;
-  out["turn_deg"] = shape.turn_rad / params::kDegree_rad;
+  out["turn_deg"] = shape.rotation_rad / params::kDegree_rad;
   return out;
 }
 
@@ -26,7 +26,7 @@ Json outline_json(const char* kind, const Part& part) {
   return {{"kind", kind},
           {"half_mm", {part.half_mm.x, part.half_mm.y}},
           {"centre_mm", {part.centre_mm.x, part.centre_mm.y}},
-          {"turn_deg", part.turn_rad / params::kDegree_rad}};
+          {"turn_deg", part.rotation_rad / params::kDegree_rad}};
 }
 
 Json lens_surfaces_json(const LensInfo& info) {

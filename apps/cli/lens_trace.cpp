@@ -72,7 +72,7 @@ Json traced_json(const Traced& traced) {
           {"steps", steps},
           {"sensor_mm", reaches_sensor ? Json::array({ray.sensor_mm.x, ray.sensor_mm.y}) : Json()},
           {"transmission", reaches_sensor ? Json(ray.transmission) : Json()},
-          {"r_rel", reaches_sensor ? Json(ray.r_rel) : Json()},
+          {"r_rel", reaches_sensor ? Json(ray.relative_height) : Json()},
           {"blocked", reaches_sensor ? Json(traced.excess > 0.0) : Json()}};
 }
 

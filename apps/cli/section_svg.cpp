@@ -93,7 +93,7 @@ void draw_obscurations(Svg& svg, const SectionPage& page, const LensState& lens)
     if (!s.obscuration.any()) continue;
     // The ellipse |A (p - c)| = 1 where it meets x = 0: a quadratic in y.
     const Rim rim = rim_of(s.obscuration);
-    const Vec2 at = rim.place({0.0, 0.0}), along = rim.place({0.0, 1.0}) - at;
+    const Vec2 at = rim.coordinates({0.0, 0.0}), along = rim.coordinates({0.0, 1.0}) - at;
     const double b = dot(at, along), a = dot(along, along), under = b * b - a * (dot(at, at) - 1.0);
     if (!(under > 0.0)) continue;
     const double low = (-b - std::sqrt(under)) / a, high = (-b + std::sqrt(under)) / a;

@@ -14,17 +14,17 @@
 
 namespace contrejour {
 
-inline constexpr int kWavelengthsByNeed = 0;
+inline constexpr int kAutoWavelengths = 0;
 
 struct FrameSettings {
   Frame frame;
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
   GhostSelection selection = SelectAll{};
-  // The number of bands of the visible spectrum. kWavelengthsByNeed: for each ghost as many as its dispersion and the
+  // The number of bands of the visible spectrum. kAutoWavelengths: for each ghost as many as its dispersion and the
   // coatings require, 32 at most (docs/physics/colour.md). Each channel's flux is that of 96 bands to 2 per cent, by
   // any method.
-  int wavelengths = kWavelengthsByNeed;
+  int wavelengths = kAutoWavelengths;
   ColourSpace colour_space = ColourSpace::Rec709;
   std::vector<double> lambda_nm;  // instead of bands: these wavelengths, equal weights, for tests and tables
 

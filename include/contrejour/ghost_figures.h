@@ -29,8 +29,8 @@ struct GhostFigures {
   GhostFirstOrder first_order;
   bool in_focus = false;  // its on-axis spot is at most kSharpBlur of the sensor's diagonal
   bool pupil_ghost = false;  // an image of the stop in the middle of the picture: its chief-ray image point moves at
-                             // most kStillPlace times as far as the direct image
-  static constexpr double kSharpBlur = 0.01, kStillPlace = 0.05;
+                             // most kStillPosition times as far as the direct image
+  static constexpr double kSharpBlur = 0.01, kStillPosition = 0.05;
 };
 
 struct FiguresRequest {

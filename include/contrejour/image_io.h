@@ -4,7 +4,7 @@
 // back changes only the samples whose rgb value was changed; every other sample keeps its bits, NaN included. In
 // luminance-chroma files with chroma of half the size, chroma within 13 pixels of a change is filtered anew.
 // docs/formats/images.md says what is kept and what not. Errors: Io, Parse (damaged file), Unsupported (deep, no
-// colour, no such layer or part, subsampled colour), Cancelled; place.file is set. No exception leaves. A failed or
+// colour, no such layer or part, subsampled colour), Cancelled; position.file is set. No exception leaves. A failed or
 // cancelled write leaves no file. Thread-safety: pure functions.
 #pragma once
 

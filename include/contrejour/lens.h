@@ -80,7 +80,7 @@ struct Prescription {
   double sensor_height_mm = 24.0;
   std::optional<double> sensor_distance_mm;  // last vertex -> sensor at infinity focus; default: paraxial focus
   StatedFigures stated;
-  SourcePlace file;
+  SourcePosition file;
   // What a reader interpreted differently from its file, or could not read: for people, with the line.
   std::vector<std::string> warnings;
 };

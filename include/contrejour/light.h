@@ -56,9 +56,9 @@ inline constexpr double kMaxLightValue = 1e16;
 [[nodiscard]] CONTREJOUR_API LightShape coarser(const LightShape& shape, int by);
 
 // The direction of a light with an offset from this one, to the right and up, in tangents of the angles.
-[[nodiscard]] CONTREJOUR_API Vec3 direction_beside(Vec3 direction, Vec2 tangents);
-// As direction_beside, for a light at any distance; its distance from the first vertex is unchanged.
-[[nodiscard]] CONTREJOUR_API LightSource source_beside(const LightSource& source, Vec2 tangents);
+[[nodiscard]] CONTREJOUR_API Vec3 offset_direction(Vec3 direction, Vec2 tangents);
+// As offset_direction, for a light at any distance; its distance from the first vertex is unchanged.
+[[nodiscard]] CONTREJOUR_API LightSource offset_source(const LightSource& source, Vec2 tangents);
 
 // Azimuth to the right, elevation up, as the photographer sees them, radians; the travel direction.
 // Errors (assert): |angle| must keep the light in front of the lens.

@@ -22,7 +22,7 @@ enum class ErrorCode {
 };
 
 // A position in a user's file; line and column count from 1, 0 means unknown.
-struct SourcePlace {
+struct SourcePosition {
   std::string file;
   int line = 0;
   int column = 0;
@@ -31,7 +31,7 @@ struct SourcePlace {
 struct CONTREJOUR_API Error {
   ErrorCode code = ErrorCode::InvalidArgument;
   std::string message;  // what is wrong and what to do, no trailing newline
-  SourcePlace place;
+  SourcePosition position;
 
   // "file:line: message", without the parts that are unknown.
   [[nodiscard]] std::string to_string() const;
@@ -40,8 +40,8 @@ struct CONTREJOUR_API Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message, SourcePlace place = {}) {
-  return tl::unexpected<Error>(Error{code, std::move(message), std::move(place)});
+[[nodiscard]] inline tl::unexpected<Error> failure(ErrorCode code, std::string message, SourcePosition position = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(position)});
 }
 
 [[nodiscard]] inline tl::unexpected<Error> invalid_argument(std::string message) {

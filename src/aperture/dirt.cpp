@@ -56,8 +56,8 @@ int poisson(double mean, double number) {
   int count = 0;
   double probability = std::exp(-mean);
   double below = probability;
-  const int most = static_cast<int>(mean + 12.0 * std::sqrt(mean) + 12.0);
-  while (number >= below && count < most) {
+  const int max_count = static_cast<int>(mean + 12.0 * std::sqrt(mean) + 12.0);
+  while (number >= below && count < max_count) {
     ++count;
     probability *= mean / count;
     below += probability;
@@ -66,11 +66,11 @@ int poisson(double mean, double number) {
 }
 
 // The sum of two sines with whole numbers of periods, 0 at time 0, with an amplitude of about 1.
-double wandering(double time, Numbers& numbers) {
+double wandering(double phase, Numbers& numbers) {
   double sum = 0.0;
   for (const double tone : {1.0, 2.0}) {
     const double start = numbers.next();
-    sum += 0.5 * (std::sin(2.0 * kPi * (tone * time + start)) - std::sin(2.0 * kPi * start));
+    sum += 0.5 * (std::sin(2.0 * kPi * (tone * phase + start)) - std::sin(2.0 * kPi * start));
   }
   return sum;
 }
@@ -82,10 +82,10 @@ class DirtGenerator {
  public:
   DirtGenerator(const Dirt& dirt, Vec2 low, Vec2 high) : dirt_(dirt), low_(low), high_(high) {}
 
-  void add(Kind kind, double per_cm2, double reach_mm) {
+  void add(Kind kind, double per_cm2, double outer_radius_mm) {
     if (!(per_cm2 > 0.0)) return;
     const double mean = per_cm2 * kCell_mm * kCell_mm * 0.01;
-    const double around = reach_mm + 2.0 * dirt_.drift_mm;
+    const double around = outer_radius_mm + 2.0 * dirt_.drift_mm;
     const auto cell_of = [](double mm) { return static_cast<int>(std::floor(mm / kCell_mm)); };
     for (int iy = cell_of(low_.y - around); iy <= cell_of(high_.y + around); ++iy) {
       for (int ix = cell_of(low_.x - around); ix <= cell_of(high_.x + around); ++ix) {
@@ -120,14 +120,14 @@ class DirtGenerator {
       s.width_mm = own.next_size(dirt_.scratch_width_mm);
       s.bend_rad = dirt_.scratch_bend_rad * own.next_signed();
     }
-    if (dirt_.time != 0.0) {
-      const double turns = dirt_.time - std::floor(dirt_.time);
+    if (dirt_.phase != 0.0) {
+      const double turns = dirt_.phase - std::floor(dirt_.phase);
       s.middle_mm.x += dirt_.drift_mm * wandering(turns, own);
       s.middle_mm.y += dirt_.drift_mm * wandering(turns, own);
     }
-    const double reach = s.reach_mm();
-    if (s.middle_mm.x + reach < low_.x || s.middle_mm.x - reach > high_.x || s.middle_mm.y + reach < low_.y ||
-        s.middle_mm.y - reach > high_.y)
+    const double outer_radius = s.outer_radius_mm();
+    if (s.middle_mm.x + outer_radius < low_.x || s.middle_mm.x - outer_radius > high_.x ||
+        s.middle_mm.y + outer_radius < low_.y || s.middle_mm.y - outer_radius > high_.y)
       return;
     strokes_.push_back(s);
   }
@@ -144,9 +144,9 @@ Vec2 DirtStroke::at(double fraction) const {
   const double s = fraction * length_mm;
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return middle_mm + along * s;
   // On a circle of curvature c: (sin(c s) / c, (1 - cos(c s)) / c).
-  const double turn = fraction * bend_rad, radius = length_mm / bend_rad;
-  const double half = std::sin(0.5 * turn);
-  return middle_mm + along * (radius * std::sin(turn)) + Vec2{-along.y, along.x} * (2.0 * radius * half * half);
+  const double angle = fraction * bend_rad, radius = length_mm / bend_rad;
+  const double half = std::sin(0.5 * angle);
+  return middle_mm + along * (radius * std::sin(angle)) + Vec2{-along.y, along.x} * (2.0 * radius * half * half);
 }
 
 Vec2 DirtStroke::normal_at(double fraction) const {
@@ -154,26 +154,26 @@ Vec2 DirtStroke::normal_at(double fraction) const {
   return {-std::sin(angle), std::cos(angle)};
 }
 
-Vec2 DirtStroke::along_and_across_mm(Vec2 place_mm) const {
+Vec2 DirtStroke::along_and_across_mm(Vec2 point_mm) const {
   const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
-  const Vec2 from = place_mm - middle_mm;
+  const Vec2 from = point_mm - middle_mm;
   const Vec2 own{dot(along, from), cross(along, from)};
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) return own;
   const double radius = length_mm / bend_rad;  // signed: the circle's centre lies to the left or right
   const Vec2 from_centre{own.x, own.y - radius};
-  const double turn = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
-  return {turn * std::abs(radius), std::copysign(1.0, radius) * (std::abs(radius) - length(from_centre))};
+  const double angle = std::atan2(from_centre.x, std::copysign(1.0, radius) * -from_centre.y);
+  return {angle * std::abs(radius), std::copysign(1.0, radius) * (std::abs(radius) - length(from_centre))};
 }
 
-double DirtStroke::distance_mm(Vec2 place_mm) const {
-  const Vec2 own = along_and_across_mm(place_mm);
+double DirtStroke::distance_mm(Vec2 point_mm) const {
+  const Vec2 own = along_and_across_mm(point_mm);
   if (std::abs(bend_rad) < kNearlyStraight || length_mm <= 0.0) {
     const double beyond = std::max(0.0, std::abs(own.x) - 0.5 * length_mm);
     return std::hypot(beyond, own.y) - 0.5 * width_mm;
   }
   if (std::abs(own.x) <= 0.5 * length_mm) return std::abs(own.y) - 0.5 * width_mm;
   const double end = own.x > 0.0 ? 0.5 : -0.5;
-  return std::min(length(place_mm - at(end)), length(place_mm - at(-end))) - 0.5 * width_mm;
+  return std::min(length(point_mm - at(end)), length(point_mm - at(-end))) - 0.5 * width_mm;
 }
 
 Result<void> check_dirt(const Dirt& dirt) {
@@ -193,7 +193,7 @@ Result<void> check_dirt(const Dirt& dirt) {
   if (!within(dirt.scratch_bend_rad, 0.0, kPi)) return bad("a bend", dirt.scratch_bend_rad);
   if (!within(dirt.opacity, 0.0, 1.0)) return bad("an opacity", dirt.opacity);
   if (!within(dirt.drift_mm, 0.0, Dirt::kFarthestDrift_mm)) return bad("a drift, in mm,", dirt.drift_mm);
-  if (!std::isfinite(dirt.time)) return bad("a time", dirt.time);
+  if (!std::isfinite(dirt.phase)) return bad("a time", dirt.phase);
   return {};
 }
 
@@ -209,7 +209,7 @@ std::vector<DirtStroke> dirt_within(const Dirt& dirt, Vec2 low_mm, Vec2 high_mm)
 
 std::vector<Vec2> dirt_outline(const DirtStroke& stroke, double low, double high) {
   constexpr int kEndSteps = 8;  // over half a turn: the error is 1 - cos(pi / 16) of half a width
-  constexpr double kStep_rad = 0.05;  // along a bent line
+  constexpr double kStep_rad = 0.05;  // along a curved line
   const double half = 0.5 * stroke.width_mm;
   const double wanted = std::ceil((high - low) * std::abs(stroke.bend_rad) / kStep_rad);
   const int steps = wanted >= 1.0 ? static_cast<int>(std::min(wanted, kMaxOutlineSteps)) : 1;

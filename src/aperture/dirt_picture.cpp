@@ -28,10 +28,10 @@ Result<std::shared_ptr<const DirtPicture>> DirtPicture::from_levels(std::span<co
   return std::shared_ptr<const DirtPicture>(std::move(picture));
 }
 
-double DirtPicture::transmission(Vec2 place) const {
+double DirtPicture::transmission(Vec2 point) const {
   // In pixels from the top left; a ring of clean pixels surrounds the picture.
-  const double x = 0.5 * (place.x * longer_ + width_) - 0.5;
-  const double y = 0.5 * (-place.y * longer_ + height_) - 0.5;
+  const double x = 0.5 * (point.x * longer_ + width_) - 0.5;
+  const double y = 0.5 * (-point.y * longer_ + height_) - 0.5;
   if (!(x > -1.0 && y > -1.0 && x < width_ && y < height_)) return 1.0;
   const double left = std::floor(x), top = std::floor(y);
   const auto level_at = [&](double column, double row) {

@@ -27,7 +27,7 @@ double folded_distance(const Iris& iris, Vec2 point) {
 
 }  // namespace
 
-Vec2 turned(Vec2 p, double angle_rad) {
+Vec2 rotated(Vec2 p, double angle_rad) {
   const double cosine = std::cos(angle_rad);
   const double sine = std::sin(angle_rad);
   return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
@@ -61,7 +61,7 @@ IrisBound edge_bound(const Iris& iris, double normal_rad, double offset) {
 namespace contrejour {
 
 double iris_distance(const Iris& iris, Vec2 point) {
-  if (iris.field) return iris.field->distance(turned(point, -iris.rotation_rad));
+  if (iris.field) return iris.field->distance(rotated(point, -iris.rotation_rad));
   if (blade_count(iris) == 0) return length(point) - 1.0;
   if (is_regular(iris)) {
     const double blades = folded_distance(iris, point);
@@ -83,7 +83,7 @@ double iris_slope_spread_rad(const Iris& iris) {
 
 double iris_transmittance(const Iris& iris, Vec2 point, double width) {
   if (iris_distance(iris, point) > 0.0) return 0.0;
-  return iris.field ? iris.field->transmittance(turned(point, -iris.rotation_rad), width) : 1.0;
+  return iris.field ? iris.field->transmittance(rotated(point, -iris.rotation_rad), width) : 1.0;
 }
 
 double iris_area_fraction(const Iris& iris) {

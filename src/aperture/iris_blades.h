@@ -11,7 +11,7 @@ namespace contrejour::inline internal {
 // The round hole that blades close.
 inline constexpr IrisBound kIrisRim{{}, 0.0, {}, 1.0};
 
-[[nodiscard]] Vec2 turned(Vec2 p, double angle_rad);  // counter-clockwise about the axis
+[[nodiscard]] Vec2 rotated(Vec2 p, double angle_rad);  // counter-clockwise about the axis
 
 // 0: the rim alone, for less than three blades and more than kMaxBlades.
 inline constexpr int kMaxBlades = 100;

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "aperture/half_tones.h"
 #include "aperture/iris_samples.h"
-#include "aperture/iris_tones.h"
 
 namespace contrejour {
 namespace {
@@ -61,22 +61,22 @@ bool half_plane(Vec2 a, Vec2 b, Vec2 inner, IrisBound& out) {
 // Builds the tree from the field: rectangles of cells are split until each is closed, open, or has a straight edge.
 class IrisFieldBuilder {
  public:
-  // tones: null where there are none.
-  IrisFieldBuilder(StopSamples distances, std::shared_ptr<const IrisTones> tones)
+  // half_tones: null where there are none.
+  IrisFieldBuilder(StopSamples distances, std::shared_ptr<const HalfTones> half_tones)
       : side_(distances.side), pitch_(2.0 / (distances.side - 2)) {
     field_.side_ = side_;
     field_.field_ = std::move(distances.value);
     for (int j = 0; j < side_; ++j)
       for (int i = 0; i < side_; ++i) {
         float& v = field_.field_[at(i, j)];
-        v = static_cast<float>(std::max(v * pitch_, length(place(i, j)) - 1.0));
+        v = static_cast<float>(std::max(v * pitch_, length(position(i, j)) - 1.0));
       }
     int size = 1;
     while (size < side_ - 1) size *= 2;
     field_.nodes_.emplace_back();
     fill(0, 0, 0, size);
-    field_.area_ = tones ? tones->flux() : field_.nodes_[0].open_area;
-    field_.tones_ = std::move(tones);
+    field_.area_ = half_tones ? half_tones->flux() : field_.nodes_[0].open_area;
+    field_.half_tones_ = std::move(half_tones);
     find_hull();
   }
 
@@ -86,7 +86,7 @@ class IrisFieldBuilder {
   [[nodiscard]] std::size_t at(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(i);
   }
-  [[nodiscard]] Vec2 place(int i, int j) const { return {(i - 0.5) * pitch_ - 1.0, (j - 0.5) * pitch_ - 1.0}; }
+  [[nodiscard]] Vec2 position(int i, int j) const { return {(i - 0.5) * pitch_ - 1.0, (j - 0.5) * pitch_ - 1.0}; }
   [[nodiscard]] double value(int i, int j) const { return field_.field_[at(i, j)]; }
 
   // Cells i0 to i1 - 1 and j0 to j1 - 1.
@@ -103,7 +103,7 @@ class IrisFieldBuilder {
   // Fills node `index` with the cells from (i, j) on, `size` a side.
   void fill(std::size_t index, int i, int j, int size) {
     const Cells cells{i, j, std::min(i + size, side_ - 1), std::min(j + size, side_ - 1)};
-    IrisField::Node node{place(cells.i0, cells.j0), place(cells.i1, cells.j1)};
+    IrisField::Node node{position(cells.i0, cells.j0), position(cells.i1, cells.j1)};
     double lowest = kFar;
     double highest = -kFar;
     for_each_sample(cells, [&](int, int, double v) {
@@ -180,7 +180,7 @@ class IrisFieldBuilder {
     line.apothem = dot(line.normal, middle) - mean / slope;
     edge.error = 0.0;
     for_each_sample(c, [&](int i, int j, double v) {
-      const double d = line.distance(place(i, j));
+      const double d = line.distance(position(i, j));
       if ((d > 0.0) != (v > 0.0)) edge.error = std::max(edge.error, std::abs(v));
       if (std::abs(v) < kNearEdge * pitch_) edge.error = std::max(edge.error, std::abs(d - v));
     });
@@ -258,12 +258,12 @@ Result<std::shared_ptr<const IrisField>> IrisField::from_levels(std::span<const 
   if (!(highest > 0.0F))
     return refused("the picture of the iris is black: nothing would pass; draw what is open white");
   const StopSamples samples = samples_over_stop(level, width, height);
-  std::shared_ptr<const IrisTones> tones;
+  std::shared_ptr<const HalfTones> half_tones;
   const bool is_averaged = samples.side - 2 < std::max(width, height);
-  if (is_averaged ? has_half_tones(samples.value, samples.side, samples.side, highest)
-                  : has_half_tones(level, width, height, highest))
-    tones = std::make_shared<const IrisTones>(samples, highest);
-  IrisFieldBuilder maker(distances_from_level(samples, (tones ? IrisTones::kDark : kEdge) * highest), tones);
+  if (is_averaged ? contains_half_tones(samples.value, samples.side, samples.side, highest)
+                  : contains_half_tones(level, width, height, highest))
+    half_tones = std::make_shared<const HalfTones>(samples, highest);
+  IrisFieldBuilder maker(distances_from_level(samples, (half_tones ? HalfTones::kDark : kEdge) * highest), half_tones);
   auto field = std::make_shared<const IrisField>(maker.take());
   if (!(field->area() > 0.0))
     return refused("the picture of the iris leaves nothing open within the stop's circle, or too fine to see");
@@ -271,7 +271,7 @@ Result<std::shared_ptr<const IrisField>> IrisField::from_levels(std::span<const 
 }
 
 double IrisField::transmittance(Vec2 p, double width) const {
-  if (tones_) return tones_->mean(p, width);
+  if (half_tones_) return half_tones_->mean(p, width);
   return distance(p) <= 0.0 ? 1.0 : 0.0;
 }
 

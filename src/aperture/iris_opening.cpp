@@ -99,13 +99,13 @@ Vec2 middle_of(const IrisEdge& edge) {
 // The bound that connects one corner to the next: both lie on it, and its middle is inside all others.
 std::optional<IrisEdge> edge_between(const std::vector<IrisBound>& bounds, Vec2 start, Vec2 end) {
   std::optional<IrisEdge> best;
-  double least = 1e-3;  // far above rounding, far below the distance of a wrong bound outside the others
+  double smallest = 1e-3;  // far above rounding, far below the distance of a wrong bound outside the others
   for (const IrisBound& bound : bounds) {
     if (std::abs(bound.distance(start)) > kSameCorner || std::abs(bound.distance(end)) > kSameCorner) continue;
     const IrisEdge edge{bound, start, end};
     const double outside = worst_distance(bounds, middle_of(edge));
-    if (outside >= least) continue;
-    least = outside;
+    if (outside >= smallest) continue;
+    smallest = outside;
     best = edge;
   }
   return best;
@@ -138,9 +138,9 @@ double distance_to(const IrisEdge& edge, Vec2 p) {
     return length(p - edge.start - along * t);
   }
   const double span = arc_angle(edge);
-  double turn = angle_from(edge.bound.centre, p) - angle_from(edge.bound.centre, edge.start);
-  if (turn < 0.0) turn += 2.0 * std::numbers::pi;
-  if (turn <= span) return std::abs(edge.bound.distance(p));
+  double angle = angle_from(edge.bound.centre, p) - angle_from(edge.bound.centre, edge.start);
+  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
+  if (angle <= span) return std::abs(edge.bound.distance(p));
   return std::min(length(p - edge.start), length(p - edge.end));
 }
 
@@ -193,16 +193,16 @@ double IrisOpening::perimeter() const {
   return sum;
 }
 
-double IrisOpening::reach() const {
+double IrisOpening::outer_radius() const {
   double farthest = 0.0;
   for (const IrisEdge& edge : edges_) {
     farthest = std::max({farthest, length(edge.start), length(edge.end)});
     if (edge.bound.straight()) continue;
     // A circle is farthest from the axis beyond its centre.
     const double outwards = std::atan2(edge.bound.centre.y, edge.bound.centre.x);
-    double turn = outwards - angle_from(edge.bound.centre, edge.start);
-    turn -= 2.0 * std::numbers::pi * std::floor(turn / (2.0 * std::numbers::pi));
-    if (turn <= arc_angle(edge)) farthest = std::max(farthest, length(edge.bound.centre) + edge.bound.radius);
+    double angle = outwards - angle_from(edge.bound.centre, edge.start);
+    angle -= 2.0 * std::numbers::pi * std::floor(angle / (2.0 * std::numbers::pi));
+    if (angle <= arc_angle(edge)) farthest = std::max(farthest, length(edge.bound.centre) + edge.bound.radius);
   }
   return farthest;
 }

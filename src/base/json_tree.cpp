@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Place {
+struct TextPosition {
   int line = 1;
   bool after_line_end = false;  // the character read last ended a line
   // A value is complete only after the character behind it was read, which may have ended its line.
@@ -32,11 +32,11 @@ class CountingIterator {
   using pointer = const char*;
   using reference = const char&;
 
-  CountingIterator(const char* at, Place* place) : at_(at), place_(place) {}
+  CountingIterator(const char* at, TextPosition* position) : at_(at), position_(position) {}
   const char& operator*() const { return *at_; }
   CountingIterator& operator++() {
-    place_->after_line_end = *at_ == '\n';
-    if (place_->after_line_end) ++place_->line;
+    position_->after_line_end = *at_ == '\n';
+    if (position_->after_line_end) ++position_->line;
     ++at_;
     return *this;
   }
@@ -50,13 +50,13 @@ class CountingIterator {
 
  private:
   const char* at_;
-  Place* place_;
+  TextPosition* position_;
 };
 
 // Builds the tree from nlohmann's events; returning false stops its parser.
 class JsonTreeBuilder {
  public:
-  explicit JsonTreeBuilder(const Place& place) : place_(place) { open_.push_back({}); }
+  explicit JsonTreeBuilder(const TextPosition& position) : position_(position) { open_.push_back({}); }
 
   bool null() { return add({}); }
   bool boolean(bool value) { return add({.kind = JsonNode::Kind::Bool, .truth = value}); }
@@ -91,13 +91,13 @@ class JsonTreeBuilder {
   bool number(double value) { return add({.kind = JsonNode::Kind::Number, .number = value}); }
   bool add(JsonNode node) {
     if (++values_ > kJsonMaxValues) return fail(fmt::format("more than {} values", kJsonMaxValues));
-    if (node.line == 0) node.line = place_.of_value();
+    if (node.line == 0) node.line = position_.of_value();
     open_.back().list.push_back(std::move(node));
     return true;
   }
   bool open(JsonNode::Kind kind) {
     if (open_.size() > kJsonMaxDepth) return fail(fmt::format("nested deeper than {} levels", kJsonMaxDepth));
-    open_.push_back({.kind = kind, .line = place_.of_value()});
+    open_.push_back({.kind = kind, .line = position_.of_value()});
     return true;
   }
   bool close() {
@@ -106,7 +106,7 @@ class JsonTreeBuilder {
     return add(std::move(node));
   }
 
-  const Place& place_;
+  const TextPosition& position_;
   std::vector<JsonNode> open_;
   std::size_t values_ = 0;
   std::optional<std::string> error_;
@@ -163,17 +163,18 @@ Result<JsonNode> parse_json(std::string_view text, const std::string& file) {
     return failure(ErrorCode::Parse, fmt::format("{} bytes; at most {} are read", text.size(), kJsonMaxBytes),
                    {file, 0, 0});
   const std::string plain = without_pythons_words(text);
-  Place place;
-  JsonTreeBuilder builder(place);
+  TextPosition position;
+  JsonTreeBuilder builder(position);
   const char* begin = plain.data();
   const char* end = begin + plain.size();
   bool whole = false;
   try {
-    whole = json::sax_parse(CountingIterator(begin, &place), CountingIterator(end, &place), &builder);
+    whole = json::sax_parse(CountingIterator(begin, &position), CountingIterator(end, &position), &builder);
   } catch (const std::exception& wrong) {
     return failure(ErrorCode::Parse, fmt::format("cannot be read as JSON: {}", wrong.what()), {file, 0, 0});
   }
-  if (!whole) return failure(ErrorCode::Parse, builder.error().value_or("not valid JSON"), {file, place.of_value(), 0});
+  if (!whole)
+    return failure(ErrorCode::Parse, builder.error().value_or("not valid JSON"), {file, position.of_value(), 0});
   JsonNode root = builder.take();
   restore_pythons_words(root);
   return root;

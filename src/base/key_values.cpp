@@ -66,12 +66,12 @@ Result<std::vector<KeyValue>> read_key_values(std::string_view toml, const std::
                      fmt::format("{} is neither text in quotes nor a finite number, true, false or a list of texts; "
                                  "see {}",
                                  shortened(value.key), page),
-                     value.place);
+                     value.position);
     }
     all.push_back(std::move(value));
   }
   std::sort(all.begin(), all.end(), [](const KeyValue& a, const KeyValue& b) {
-    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    return std::pair(a.position.line, a.position.column) < std::pair(b.position.line, b.position.column);
   });
   return all;
 }

@@ -16,7 +16,7 @@ struct LinearMap {
   [[nodiscard]] double determinant() const { return cross(x, y); }
 };
 
-inline constexpr LinearMap kNowhere{{0.0, 0.0}, {0.0, 0.0}};  // maps everything to one point
+inline constexpr LinearMap kZeroMap{{0.0, 0.0}, {0.0, 0.0}};  // maps everything to one point
 
 // Applies b, then a.
 inline LinearMap operator*(const LinearMap& a, const LinearMap& b) { return {a(b.x), a(b.y)}; }
@@ -34,15 +34,15 @@ inline LinearMap inverse(const LinearMap& a) {
 
 // The eigenvalues of a symmetric map, the smaller one first.
 inline Vec2 eigenvalues(const LinearMap& a) {
-  const double mean = 0.5 * (a.x.x + a.y.y), apart = std::hypot(0.5 * (a.x.x - a.y.y), a.x.y);
-  return {mean - apart, mean + apart};
+  const double mean = 0.5 * (a.x.x + a.y.y), half_difference = std::hypot(0.5 * (a.x.x - a.y.y), a.x.y);
+  return {mean - half_difference, mean + half_difference};
 }
 
 // The symmetric square root of a symmetric map without negative eigenvalues (Cayley-Hamilton).
 inline LinearMap square_root(const LinearMap& a) {
   const Vec2 e = eigenvalues(a);
   const double low = std::sqrt(std::max(e.x, 0.0)), high = std::sqrt(std::max(e.y, 0.0));
-  if (!(low + high > 0.0)) return kNowhere;
+  if (!(low + high > 0.0)) return kZeroMap;
   return (a + LinearMap{} * (low * high)) * (1.0 / (low + high));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ending of a file's name as formats are told by it: ".exr" for "Plate.EXR".
+// The ending of a file's name by which formats are distinguished: ".exr" for "Plate.EXR".
 #pragma once
 
 #include <cctype>

@@ -5,9 +5,9 @@ namespace contrejour {
 
 std::string Error::to_string() const {
   std::string text;
-  if (!place.file.empty()) {
-    text = place.file + ":";
-    if (place.line > 0) text += std::to_string(place.line) + ":";
+  if (!position.file.empty()) {
+    text = position.file + ":";
+    if (position.line > 0) text += std::to_string(position.line) + ":";
     text += " ";
   }
   return text + message;

@@ -33,7 +33,7 @@ std::string_view type_name(toml::node_type type) {
 void TomlErrors::fail(const toml::source_region& where, std::string message) {
   if (error_) return;
   error_ = Error{ErrorCode::Parse, std::move(message),
-                 SourcePlace{file_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column)}};
+                 SourcePosition{file_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column)}};
 }
 
 TomlFields::TomlFields(const toml::table& table, std::string what, std::initializer_list<std::string_view> known,

@@ -31,7 +31,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, YamlNode::Kind::Null, ""); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { position(mark, YamlNode::Kind::Null, ""); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     throw Stop(mark, "aliases are not read; write it out");
   }
@@ -41,7 +41,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
       open_.back().has_key = true;
       return;
     }
-    place(mark, YamlNode::Kind::Scalar, value);
+    position(mark, YamlNode::Kind::Scalar, value);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     open(mark, YamlNode::Kind::List);
@@ -76,7 +76,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
     open_.pop_back();
     add(std::move(node));
   }
-  void place(const YAML::Mark& mark, YamlNode::Kind kind, const std::string& value) {
+  void position(const YAML::Mark& mark, YamlNode::Kind kind, const std::string& value) {
     count(mark);
     const bool as_key = !open_.empty() && open_.back().node.kind == YamlNode::Kind::Map && !open_.back().has_key;
     if (as_key) throw Stop(mark, "a key is missing");

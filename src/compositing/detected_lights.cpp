@@ -36,7 +36,7 @@ std::optional<LightShape> angles_of_pixels(const LightSource& source, const Pixe
   constexpr double kStep = 1e-3;
   const auto image_px = [&](Vec2 tangents) {
     return grid.pixel_from_sensor(
-        chief_ray_image_point(lens, source_beside(source, tangents), lens.design_wavelength_nm));
+        chief_ray_image_point(lens, offset_source(source, tangents), lens.design_wavelength_nm));
   };
   const Vec2 x = (image_px({kStep, 0.0}) - image_px({-kStep, 0.0})) * (0.5 / kStep);
   const Vec2 y = (image_px({0.0, kStep}) - image_px({0.0, -kStep})) * (0.5 / kStep);

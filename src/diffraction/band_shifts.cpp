@@ -19,9 +19,9 @@ BandShifts shifts_of(std::span<const SpectralBand> bands) {
   const int last = static_cast<int>(std::floor(rows_of(high->lambda_nm))) + 1;
   shifts.weight.resize(static_cast<std::size_t>(last - shifts.first + 1));
   for (const SpectralBand& band : bands) {
-    const double place = rows_of(band.lambda_nm) - shifts.first;
-    const auto k = static_cast<std::size_t>(place);
-    const double t = place - static_cast<double>(k);
+    const double position = rows_of(band.lambda_nm) - shifts.first;
+    const auto k = static_cast<std::size_t>(position);
+    const double t = position - static_cast<double>(k);
     for (const std::size_t i : {k, k + 1}) {
       // A pattern twice as wide has a quarter of the density.
       const double spread = std::exp2(-2.0 * (shifts.first + static_cast<double>(i)) / kRowsPerOctave);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kRowsAtOnce = 16;
 
 // exp(-2 pi i turns), also accurate for turns too large for sin and cos.
-std::complex<double> turned(double turns) {
+std::complex<double> phasor(double turns) {
   return std::polar(1.0, -2.0 * std::numbers::pi * (turns - std::nearbyint(turns)));
 }
 
@@ -34,16 +34,16 @@ ChirpZ::ChirpZ(const RegularPoints& from, const RegularPoints& to)
   const double half = 0.5 * from.step * to.step;
   for (std::size_t j = 0; j < from_; ++j) {
     const auto x = static_cast<double>(j);
-    before_[j] = turned(x * from.step * to.first + half * x * x);
+    before_[j] = phasor(x * from.step * to.first + half * x * x);
   }
   for (std::size_t k = 0; k < to_; ++k) {
     const auto u = static_cast<double>(k);
-    after_[k] = turned(from.first * (to.first + u * to.step) + half * u * u) / static_cast<double>(length_);
-    kernel_[k] = turned(-half * u * u);
+    after_[k] = phasor(from.first * (to.first + u * to.step) + half * u * u) / static_cast<double>(length_);
+    kernel_[k] = phasor(-half * u * u);
   }
   for (std::size_t j = 1; j < from_; ++j) {
     const auto m = static_cast<double>(j);
-    kernel_[length_ - j] = turned(-half * m * m);
+    kernel_[length_ - j] = phasor(-half * m * m);
   }
   fft_rows<double>(kernel_, {1, length_}, FftDirection::Forward);
 }

@@ -15,9 +15,9 @@ DirectionMeans::DirectionMeans(std::span<const double> values) : below_{0.0} {
 double DirectionMeans::until(double parts) const {
   const double count = static_cast<double>(below_.size()) - 1.0;
   const double half_turns = std::floor(parts / count);
-  const double place = std::clamp(parts - half_turns * count, 0.0, count);
-  const auto i = std::min(static_cast<std::size_t>(place), below_.size() - 2);
-  const double t = place - static_cast<double>(i);
+  const double position = std::clamp(parts - half_turns * count, 0.0, count);
+  const auto i = std::min(static_cast<std::size_t>(position), below_.size() - 2);
+  const double t = position - static_cast<double>(i);
   return half_turns * below_.back() + (1.0 - t) * below_[i] + t * below_[i + 1];
 }
 

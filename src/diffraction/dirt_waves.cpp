@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpeckWithin = 1.0;      // length of its line in widths, up to which a stroke is a speck
 constexpr double kDirtFlatPhase = 0.1;        // rad: a line with a smaller phase from its curvature is straight
 constexpr double kFringes = 14.0;         // rad, from which on sinc^2 and Airy's rings are replaced by their means
-constexpr double kBeside = 12.0;          // widths over lengths: angle beyond the fan from which on only ends are
+constexpr double kOffFan = 12.0;          // widths over lengths: angle beyond the fan from which on only ends are
                                           // counted
 constexpr double kDirtSpectralBlur = 0.15;  // half of a channel's band over its middle, which blurs fringes beyond the
                                             // first
@@ -101,9 +101,9 @@ DirtWaves::DirtWaves(std::span<const DirtStroke> strokes) {
 
 double DirtWaves::specks_power(double k) const {
   if (specks_.empty()) return 0.0;
-  const double place = std::clamp(std::log2(k / kFirst) * kStepsPerOctave, 0.0, specks_.size() - 1.001);
-  const auto i = static_cast<std::size_t>(place);
-  const double t = place - static_cast<double>(i);
+  const double position = std::clamp(std::log2(k / kFirst) * kStepsPerOctave, 0.0, specks_.size() - 1.001);
+  const auto i = static_cast<std::size_t>(position);
+  const double t = position - static_cast<double>(i);
   return std::exp2((1.0 - t) * specks_[i] + t * specks_[i + 1]);
 }
 
@@ -116,8 +116,8 @@ std::vector<double> DirtWaves::brightest_end_normals(std::size_t scratches) cons
   brightest.resize(std::min(brightest.size(), scratches));
   std::vector<double> normals;
   for (const Stroke& s : brightest) {
-    normals.push_back(s.normal_rad - s.half_turn_rad);
-    if (s.half_turn_rad > 0.0) normals.push_back(s.normal_rad + s.half_turn_rad);
+    normals.push_back(s.normal_rad - s.half_bend_rad);
+    if (s.half_bend_rad > 0.0) normals.push_back(s.normal_rad + s.half_bend_rad);
   }
   return normals;
 }
@@ -130,31 +130,31 @@ DirtWaves::Direction DirtWaves::along(double direction_rad, double window_rad) c
     double tau = direction_rad - s.normal_rad;
     tau -= kPi * std::round(tau / kPi);  // u and -u give the same power
     // Outside the fan only the ends diffract light, k^-2 times that of a slit, where their fringes are fine.
-    const double beside = std::abs(tau) - s.half_turn_rad - 0.5 * window_rad;
-    const double ends = smooth_step(beside * s.length / (kBeside * s.width) - 1.0);  // the weight of this term
+    const double off_fan = std::abs(tau) - s.half_bend_rad - 0.5 * window_rad;
+    const double ends = smooth_step(off_fan * s.length / (kOffFan * s.width) - 1.0);  // the weight of this term
     if (ends > 0.0) {
       // 2 / (k sin(tau))^2 * (w sinc(k w cos(tau) / 2))^2, whose mean is 4 / (k^2 sin(tau) cos(tau))^2 at large k.
-      const double sine2 = square(std::sin(beside));
+      const double sine2 = square(std::sin(off_fan));
       const double cosine2 = std::max(square(std::cos(tau)), 1e-6);
       d.ends_k2_ += ends * s.weight * 2.0 * square(s.width) / sine2;
       d.ends_k4_ += ends * s.weight * 4.0 / (sine2 * cosine2);
     }
     if (ends >= 1.0) continue;
     const double radius =
-        s.half_turn_rad > 0.0 ? 0.5 * s.length / s.half_turn_rad : std::numeric_limits<double>::infinity();
+        s.half_bend_rad > 0.0 ? 0.5 * s.length / s.half_bend_rad : std::numeric_limits<double>::infinity();
     const auto end = [](double angle) -> Direction::Line::End {
       const double half = 0.5 * std::clamp(angle, -kPi, kPi);
       return {std::sin(half), std::cos(half)};
     };
     d.near_.push_back({s.length, radius, s.width, (1.0 - ends) * s.weight, std::sin(tau), std::cos(tau),
-                       end(tau - s.half_turn_rad), end(tau + s.half_turn_rad)});
+                       end(tau - s.half_bend_rad), end(tau + s.half_bend_rad)});
   }
   return d;
 }
 
 // The factor of a slit's width times the one along it: for a straight slit (L sinc(k L sin(tau) / 2))^2, averaged over
-// the window; for a bent one by Fresnel's integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u = sqrt(4
-// k R / pi) sin(s / 2).
+// the window; for a curved one by Fresnel's integrals (EdgeWaves' arc): phase k R cos(s) = k R - (pi / 2) u^2, u =
+// sqrt(4 k R / pi) sin(s / 2).
 double DirtWaves::Direction::line_power(const Line& line, double k) const {
   const double across = line.weight * square(line.width) * sinc_squared(0.5 * k * line.width * line.cosine);
   if (k * square(line.length) < 8.0 * kDirtFlatPhase * line.radius) {
@@ -170,8 +170,8 @@ double DirtWaves::Direction::line_power(const Line& line, double k) const {
       std::clamp(static_cast<int>(std::ceil(0.5 * per_sine * window_rad_ / kDirtStepU)), 1, kDirtMaxSteps);
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const double half_turn = 0.5 * window_rad_ * ((i + 0.5) / steps - 0.5);  // small: a sine's tangent is the sine
-    const auto u_of = [&](const Line::End& end) { return per_sine * (end.sine + half_turn * end.cosine); };
+    const double half_window = 0.5 * window_rad_ * ((i + 0.5) / steps - 0.5);  // small: a sine's tangent is the sine
+    const auto u_of = [&](const Line::End& end) { return per_sine * (end.sine + half_window * end.cosine); };
     sum += fresnel_power(u_of(line.first), u_of(line.last));
   }
   return across * kPi * line.radius / k * sum / steps;

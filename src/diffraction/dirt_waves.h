@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The power spectrum of dirt far from its centre, with fringes between shapes averaged out: the sum over shapes. By
 // Babinet's principle a shape that blocks light diffracts as an opening of its form would. A scratch acts as a slit of
-// its width and gives a streak across it, or a fan if it is bent; specks are discs, which diffract in all directions.
+// its width and gives a streak across it, or a fan if it is curved; specks are discs, which diffract in all directions.
 // Units: those of the strokes, wave numbers k in radians per mm. docs/physics/diffraction.md.
 #pragma once
 
@@ -49,7 +49,7 @@ class DirtWaves {
 
  private:
   struct Stroke {
-    double normal_rad, half_turn_rad, length, width, weight;
+    double normal_rad, half_bend_rad, length, width, weight;
   };
   [[nodiscard]] double specks_power(double k) const;
 

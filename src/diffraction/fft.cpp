@@ -97,8 +97,8 @@ std::vector<std::complex<float>> fft_2d_real(std::span<const float> data, FftSha
   return spectrum;
 }
 
-std::size_t good_fft_size(std::size_t least) {
-  return 2 * pocketfft::detail::util::good_size_cmplx(std::max<std::size_t>(1, (least + 1) / 2));
+std::size_t good_fft_size(std::size_t min_size) {
+  return 2 * pocketfft::detail::util::good_size_cmplx(std::max<std::size_t>(1, (min_size + 1) / 2));
 }
 
 }  // namespace contrejour::inline internal

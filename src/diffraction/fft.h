@@ -33,6 +33,6 @@ void fft_rows(std::span<std::complex<Real>> data, FftShape shape, FftDirection d
                                                            const Context& context);
 
 // The smallest even size >= least for which pocketfft is fast.
-[[nodiscard]] std::size_t good_fft_size(std::size_t least);
+[[nodiscard]] std::size_t good_fft_size(std::size_t min_size);
 
 }  // namespace contrejour::inline internal

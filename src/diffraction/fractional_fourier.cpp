@@ -25,17 +25,17 @@ constexpr int kTransformedAtOnce = 32;
 Eigen::MatrixXd eigenvectors_of(int side, bool even) {
   const int first = even ? 0 : 1;
   const int count = even ? side / 2 + 1 : (side + 1) / 2 - 1;
-  Eigen::VectorXd diagonal(count), beside(std::max(count - 1, 0));
+  Eigen::VectorXd diagonal(count), off_diagonal(std::max(count - 1, 0));
   for (int n = 0; n < count; ++n) diagonal[n] = 2.0 * std::cos(2.0 * std::numbers::pi * (n + first) / side);
-  beside.setOnes();
+  off_diagonal.setOnes();
   const bool odd_side = side % 2 != 0;
   if (odd_side && count > 0) diagonal[count - 1] += even ? 1.0 : -1.0;  // its neighbour is its own mirror image
   if (even && count > 1) {
-    beside[0] = std::numbers::sqrt2;  // samples 0 and N / 2 have no mirror image
-    if (!odd_side) beside[count - 2] = count == 2 ? 2.0 : std::numbers::sqrt2;
+    off_diagonal[0] = std::numbers::sqrt2;  // samples 0 and N / 2 have no mirror image
+    if (!odd_side) off_diagonal[count - 2] = count == 2 ? 2.0 : std::numbers::sqrt2;
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, beside);
+  solver.computeFromTridiagonal(diagonal, off_diagonal);
   return solver.eigenvectors().rowwise().reverse();
 }
 
@@ -80,10 +80,10 @@ FractionalFourier::FractionalFourier(int side) : side_(side >= 1 && side <= kMax
       degree_.push_back(2 * k + (even ? 0 : 1));  // an even side has degree N in place of N - 1: 2 k gives it
       std::vector<double> row(n);
       for (int m = 0; m < vectors.rows(); ++m) {
-        const int place = even ? m : m + 1, mirrored = (side - place) % side;
-        const double value = place == mirrored ? vectors(m, k) : vectors(m, k) / std::numbers::sqrt2;
-        row[static_cast<std::size_t>((place + middle) % side)] = value;
-        row[static_cast<std::size_t>((mirrored + middle) % side)] = even || place == mirrored ? value : -value;
+        const int position = even ? m : m + 1, mirrored = (side - position) % side;
+        const double value = position == mirrored ? vectors(m, k) : vectors(m, k) / std::numbers::sqrt2;
+        row[static_cast<std::size_t>((position + middle) % side)] = value;
+        row[static_cast<std::size_t>((mirrored + middle) % side)] = even || position == mirrored ? value : -value;
       }
       basis_.insert(basis_.end(), row.begin(), row.end());
     }

@@ -85,8 +85,8 @@ std::vector<double> fresnel_near(const PupilMask& mask, double stop_radius_mm, d
   }
 
   // Back to the pattern's points: exp(+2 pi i f x) is the chirp transform to -x.
-  const RegularPoints places = pattern_points(side, extent);
-  const ChirpZ back({padded, -static_cast<double>(half) * step, step}, {places.count, -places.first, -places.step});
+  const RegularPoints points = pattern_points(side, extent);
+  const ChirpZ back({padded, -static_cast<double>(half) * step, step}, {points.count, -points.first, -points.step});
   const Wave pattern = back.transform_2d(spectrum, context);
   return intensities(pattern, 1.0 / samples_of_square(padded) / square(padded));
 }
@@ -96,7 +96,7 @@ std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, do
                                 double extent, const Context& context) {
   const double pitch = mask.grid.pitch_mm / stop_radius_mm;
   const auto samples = static_cast<std::size_t>(mask.grid.side);
-  const RegularPoints from = centred_points(samples, pitch), places = pattern_points(side, extent);
+  const RegularPoints from = centred_points(samples, pitch), points = pattern_points(side, extent);
   std::vector<std::complex<double>> chirp(samples);
   for (std::size_t k = 0; k < samples; ++k) {
     const double s = from.first + static_cast<double>(k) * from.step;
@@ -106,7 +106,7 @@ std::vector<double> fresnel_far(const PupilMask& mask, double stop_radius_mm, do
   for (std::size_t r = 0; r < samples; ++r)
     for (std::size_t c = 0; c < samples; ++c)
       wave[r * samples + c] = product(product(mask.at(r * samples + c), chirp[r]), chirp[c]);
-  const ChirpZ transform(from, {places.count, fresnel_number * places.first, fresnel_number * places.step});
+  const ChirpZ transform(from, {points.count, fresnel_number * points.first, fresnel_number * points.step});
   const double amplitude = fresnel_number * pitch * pitch;
   return intensities(transform.transform_2d(wave, context), amplitude * amplitude);
 }

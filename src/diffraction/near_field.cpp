@@ -38,8 +38,8 @@ Chord chord_of(const SquareAt& square, Vec2 along) {
 }
 
 double nearest_px(const SquareAt& s) {
-  const Vec2 beside{std::max({s.low.x, -s.high.x, 0.0}), std::max({s.low.y, -s.high.y, 0.0})};
-  return length(beside);
+  const Vec2 distance{std::max({s.low.x, -s.high.x, 0.0}), std::max({s.low.y, -s.high.y, 0.0})};
+  return length(distance);
 }
 
 double farthest_px(const SquareAt& s) {
@@ -112,9 +112,9 @@ void NearField::add_ray(const Octave& octave, std::size_t cell, double weight, d
                         std::array<double, 3>& sum) {
   const std::array<double, 3>* const below = octave.below.data() + cell * (kRows + 1);
   const auto add_within = [&](double radius_px, double sign) {
-    const double place =
+    const double position =
         radius_px > octave.first_row_px ? kRowsPerOctave * std::log2(radius_px / octave.first_row_px) : 0.0;
-    const std::size_t row = std::min(static_cast<std::size_t>(place), kRows - 1);
+    const std::size_t row = std::min(static_cast<std::size_t>(position), kRows - 1);
     const double inner = octave.row_edge2[row];
     const double t = (radius_px * radius_px - inner) / (octave.row_edge2[row + 1] - inner);
     for (std::size_t c = 0; c < 3; ++c) sum[c] += sign * (below[row][c] + t * (below[row + 1][c] - below[row][c]));

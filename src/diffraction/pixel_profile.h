@@ -16,24 +16,24 @@ class PixelProfile {
   PixelProfile(Real a, Real b, Real width) {
     const Real wide = std::max(std::abs(a), std::abs(b)) * width, narrow = std::min(std::abs(a), std::abs(b)) * width;
     level_ = Real(0.5) * (wide - narrow);
-    reach_ = Real(0.5) * (wide + narrow);
+    extent_ = Real(0.5) * (wide + narrow);
     per_wide_ = Real(1) / wide;
     per_slope_ = narrow > Real(1e-6) * wide ? Real(0.5) * per_wide_ / narrow : Real(0);
   }
 
-  [[nodiscard]] Real reach() const { return reach_; }  // of the pixel's corners
+  [[nodiscard]] Real extent() const { return extent_; }  // of the pixel's corners
 
   // The fraction of the pixel below a line at this signed distance: 0 to 1.
   [[nodiscard]] Real fraction_below(Real distance) const {
-    const Real d = std::min(std::abs(distance), reach_);
+    const Real d = std::min(std::abs(distance), extent_);
     const Real beyond = d - level_;
     // Half of the pixel less the remaining corner.
-    const Real half = beyond > Real(0) ? Real(0.5) - (reach_ - d) * (reach_ - d) * per_slope_ : d * per_wide_;
+    const Real half = beyond > Real(0) ? Real(0.5) - (extent_ - d) * (extent_ - d) * per_slope_ : d * per_wide_;
     return distance < Real(0) ? Real(0.5) - half : Real(0.5) + half;
   }
 
  private:
-  Real level_, reach_, per_wide_, per_slope_;
+  Real level_, extent_, per_wide_, per_slope_;
 };
 
 }  // namespace contrejour::inline internal

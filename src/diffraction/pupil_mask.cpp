@@ -18,10 +18,10 @@ constexpr double kFarthest = 1e8;  // samples, of a polygon's corner
 double half_plane_fraction(Vec2 normal, double distance) {
   const double a = std::max(std::abs(normal.x), std::abs(normal.y));
   const double b = std::min(std::abs(normal.x), std::abs(normal.y));
-  const double reach = 0.5 * (a + b), straight = 0.5 * (a - b);
+  const double extent = 0.5 * (a + b), straight = 0.5 * (a - b);
   const double d = std::abs(distance);
-  if (d >= reach) return distance > 0.0 ? 0.0 : 1.0;
-  const double beyond = d <= straight ? 0.5 - d / a : (reach - d) * (reach - d) / (2.0 * a * b);
+  if (d >= extent) return distance > 0.0 ? 0.0 : 1.0;
+  const double beyond = d <= straight ? 0.5 - d / a : (extent - d) * (extent - d) / (2.0 * a * b);
   return distance > 0.0 ? beyond : 1.0 - beyond;
 }
 
@@ -81,8 +81,8 @@ PupilMask make_mask(const MaskGrid& grid, const std::function<double(Vec2)>& dis
   PupilMask mask{grid, std::vector<float>(pixels_of(grid.side)), {}};
   parallel_for(static_cast<std::size_t>(grid.side), context, [&](std::size_t row) {
     for (int column = 0; column < grid.side; ++column)
-      mask.amplitude[row * static_cast<std::size_t>(grid.side) + static_cast<std::size_t>(column)] =
-          static_cast<float>(open_fraction(distance_mm, grid.place_mm(column, static_cast<int>(row)), grid.pitch_mm));
+      mask.amplitude[row * static_cast<std::size_t>(grid.side) + static_cast<std::size_t>(column)] = static_cast<float>(
+          open_fraction(distance_mm, grid.position_mm(column, static_cast<int>(row)), grid.pitch_mm));
   });
   return mask;
 }

@@ -143,8 +143,8 @@ std::vector<double> sharp_parts(const StarburstPattern& pattern, const Context& 
   const double mean_of_all = mean(0, held.size());
   std::vector<double> found;
   for (std::size_t k = 0; k < held.size(); ++k) {
-    const double beside = mean(k / kPartsOfBin * kPartsOfBin, kPartsOfBin);
-    if (held[k] > kStandsOut * std::max(beside, mean_of_all)) found.push_back(middle(k));
+    const double neighbours = mean(k / kPartsOfBin * kPartsOfBin, kPartsOfBin);
+    if (held[k] > kStandsOut * std::max(neighbours, mean_of_all)) found.push_back(middle(k));
   }
   if (found.size() > kMaxParts) return {};
   for (double& turns : found) turns = end.brightest(turns, 2.0 * part);

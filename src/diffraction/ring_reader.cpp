@@ -23,14 +23,14 @@ using Pixel = hn::CappedTag<float, 4>;
 constexpr float kInverse_pi = 0.318309886F;
 
 // A position among the rings: between a row and the next, and in half turns.
-struct RingPlace {
+struct RingPosition {
   std::size_t row = 0;
   float below = 0.0F;  // 0..1, from the row to the next
   float turns = 0.0F;
 };
 
 // Interpolates means over pixels between the rows and the bins' edges on both sides.
-HWY_INLINE void read_means(const StarburstOctave& octave, std::size_t bin, const RingPlace& at, float* rgb) {
+HWY_INLINE void read_means(const StarburstOctave& octave, std::size_t bin, const RingPosition& at, float* rgb) {
   const Pixel d;
   const auto t = hn::Set(d, at.below);
   const auto s = hn::Set(d, std::min(at.turns * static_cast<float>(octave.bins) - static_cast<float>(bin), 1.0F));
@@ -45,11 +45,11 @@ HWY_INLINE void read_means(const StarburstOctave& octave, std::size_t bin, const
   std::copy_n(value, 3, rgb);
 }
 
-HWY_INLINE void read_place(const StarburstRings& rings, float octaves, float turns, Vec2 p, float* rgb) {
+HWY_INLINE void read_position(const StarburstRings& rings, float octaves, float turns, Vec2 p, float* rgb) {
   const std::size_t o = std::min(static_cast<std::size_t>(octaves), rings.octaves.size() - 1);
   const StarburstOctave& octave = rings.octaves[o];
   const float row = (octaves - static_cast<float>(o)) * kRowsPerOctave;
-  RingPlace at;
+  RingPosition at;
   at.row = std::min(static_cast<std::size_t>(row), static_cast<std::size_t>(kRowsPerOctave - 1));
   at.below = std::min(row - static_cast<float>(at.row), 1.0F);
   at.turns = turns;
@@ -81,7 +81,7 @@ void read_rings(const StarburstRings& rings, double x0, double y, std::size_t co
       float* const out = rgb + 3 * (i + k);
       const double from_x = x0 + static_cast<double>(i + k);
       if (from_x * from_x >= near2 && octaves[k] < last_octaves)
-        read_place(rings, octaves[k], turns[k], {from_x, -y}, out);
+        read_position(rings, octaves[k], turns[k], {from_x, -y}, out);
       else
         std::fill_n(out, 3, 0.0F);
     }

@@ -21,7 +21,7 @@ constexpr double kTailFade = 0.625;  // of that, the beginning of the transition
 constexpr double kCleanWithin = 2e-3;  // relative: the error of samples at edges
 constexpr double kScatteredFrom = 0.7;  // of the tail's end: the spectrum from here on is extrapolated beyond
 constexpr double kGrainRho = 1.0;  // distance between its samples, equal to its width
-constexpr int kModelPlaces = 6;  // fewer samples of the model, which is smooth
+constexpr int kModelSamples = 6;  // fewer samples of the model, which is smooth
 constexpr double kMinGrain = 0.25, kMaxGrain = 4.0;  // of the sum over shapes, due to interference
 constexpr std::size_t kSharpStrokes = 16;  // the brightest: if many lie together, none is sharp
 constexpr int kRowsPerStep = 4;  // between which the tail times rho^3 is interpolated
@@ -89,11 +89,11 @@ double mean_amplitude(const PupilMask& mask, const PupilOutline& outline) {
 }
 
 // A direction in the plane of a shape whose unit vectors are x and y in the mask.
-struct Seen {
+struct Foreshortened {
   double angle_rad, stretch;
-  double turn;  // change of angles there over here
+  double angle_ratio;  // change of angles there over here
 };
-Seen seen_from(Vec2 x, Vec2 y, double angle_rad) {
+Foreshortened foreshortened_by(Vec2 x, Vec2 y, double angle_rad) {
   const Vec2 along{std::cos(angle_rad), std::sin(angle_rad)};
   const Vec2 own{dot(x, along), dot(y, along)};
   const double stretch = length(own);
@@ -185,9 +185,9 @@ double StarburstPattern::Tail::times_rho3(double rho) const {
 // The spectrum at f of a linearly mapped shape is the shape's own spectrum at the transposed map times f, with another
 // direction, wave number and width of the window.
 void StarburstPattern::add_edges(double angle_rad, double window_rad, Tail& tail) const {
-  const Seen seen = seen_from(outline_x_, outline_y_, angle_rad);
-  tail.stretch = seen.stretch;
-  tail.edges = edges_->along(seen.angle_rad, window_rad * seen.turn);
+  const Foreshortened foreshortened = foreshortened_by(outline_x_, outline_y_, angle_rad);
+  tail.stretch = foreshortened.stretch;
+  tail.edges = edges_->along(foreshortened.angle_rad, window_rad * foreshortened.angle_ratio);
   tail.scale = edge_scale_;
   if (!obscurations_) return;
   tail.obscurations = obscurations_->along(angle_rad, window_rad);
@@ -195,9 +195,9 @@ void StarburstPattern::add_edges(double angle_rad, double window_rad, Tail& tail
 }
 
 void StarburstPattern::add_dirt(double angle_rad, double window_rad, Tail& tail) const {
-  const Seen seen = seen_from(dirt_x_, dirt_y_, angle_rad);
-  tail.dirt_stretch = seen.stretch;
-  tail.dirt = dirt_->along(seen.angle_rad, window_rad * seen.turn);
+  const Foreshortened foreshortened = foreshortened_by(dirt_x_, dirt_y_, angle_rad);
+  tail.dirt_stretch = foreshortened.stretch;
+  tail.dirt = dirt_->along(foreshortened.angle_rad, window_rad * foreshortened.angle_ratio);
   tail.dirt_scale = dirt_scale_;
 }
 
@@ -238,10 +238,10 @@ void StarburstPattern::measure_grain(const Context& context) {
     Tail edges, dirt;
     add_edges(angle, window, edges);
     add_dirt(angle, window, dirt);
-    for (int k = 0; k < kModelPlaces; ++k) {
-      const double rho = from + length * (k + 0.5) / kModelPlaces;
-      halo[i] -= edges.times_rho3(rho) / kModelPlaces;
-      shapes[i] += dirt.times_rho3(rho) / kModelPlaces;
+    for (int k = 0; k < kModelSamples; ++k) {
+      const double rho = from + length * (k + 0.5) / kModelSamples;
+      halo[i] -= edges.times_rho3(rho) / kModelSamples;
+      shapes[i] += dirt.times_rho3(rho) / kModelSamples;
     }
   });
   halo_ = DirectionMeans(halo);

@@ -14,14 +14,14 @@ constexpr int kBandSamples = 9;
 
 // exp(-i pi / 4) times the integral of exp(i pi t^2) from -infinity to each step, at one wavelength.
 std::vector<Complex> edge_by_steps(double first, double step, std::size_t count) {
-  const auto turned = [](double t) { return std::polar(1.0, kPi * (t * t - 0.25)); };
+  const auto phasor = [](double t) { return std::polar(1.0, kPi * (t * t - 0.25)); };
   // From -infinity: by parts, exp(i pi t^2) / (2 pi i t) (1 + 1 / (2 pi i t^2) + 3 / (2 pi i t^2)^2).
   const Complex q = 1.0 / Complex(0.0, 2.0 * kPi * first * first);
-  Complex sum = turned(first) / Complex(0.0, 2.0 * kPi * first) * (1.0 + q + 3.0 * q * q);
+  Complex sum = phasor(first) / Complex(0.0, 2.0 * kPi * first) * (1.0 + q + 3.0 * q * q);
   std::vector<Complex> out{sum};
   for (std::size_t k = 1; k < count; ++k) {
     const double a = first + static_cast<double>(k - 1) * step;
-    sum += step / 6.0 * (turned(a) + 4.0 * turned(a + 0.5 * step) + turned(a + step));
+    sum += step / 6.0 * (phasor(a) + 4.0 * phasor(a + 0.5 * step) + phasor(a + step));
     out.push_back(sum);
   }
   return out;
@@ -36,9 +36,9 @@ StraightEdge::StraightEdge(double spread) {
   constexpr double kFine = 0.25 / kSteps, kFar = 4.0 * kReach;
   const auto fine = edge_by_steps(-kFar, kFine, static_cast<std::size_t>(2.0 * kFar / kFine) + 2);
   const auto one_wavelength = [&](double t) {
-    const double place = std::clamp((t + kFar) / kFine, 0.0, 2.0 * kFar / kFine);
-    const auto k = static_cast<std::size_t>(place);
-    return fine[k] + (fine[k + 1] - fine[k]) * (place - static_cast<double>(k));
+    const double position = std::clamp((t + kFar) / kFine, 0.0, 2.0 * kFar / kFine);
+    const auto k = static_cast<std::size_t>(position);
+    return fine[k] + (fine[k + 1] - fine[k]) * (position - static_cast<double>(k));
   };
   const auto count = static_cast<std::size_t>(2.0 * kReach * kSteps) + 1;
   for (std::size_t k = 0; k < count; ++k) {

@@ -23,9 +23,9 @@ class StraightEdge {
 
   // t: distance inside the opening, negative outside.
   [[nodiscard]] std::complex<float> at(double t) const {
-    const double place = std::clamp((t + kReach) * kSteps, 0.0, 2.0 * kReach * kSteps);
-    const auto k = static_cast<std::size_t>(place);
-    return value_[k] + change_[k] * static_cast<float>(place - static_cast<double>(k));
+    const double position = std::clamp((t + kReach) * kSteps, 0.0, 2.0 * kReach * kSteps);
+    const auto k = static_cast<std::size_t>(position);
+    return value_[k] + change_[k] * static_cast<float>(position - static_cast<double>(k));
   }
 
  private:

@@ -21,10 +21,10 @@ double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(ro
 
 // Weights of a normal distribution, in steps of kStepOfSpread about its middle.
 std::vector<double> slope_weights() {
-  const int most = static_cast<int>(std::ceil(kMaxSpreads / kStepOfSpread));
+  const int max_steps = static_cast<int>(std::ceil(kMaxSpreads / kStepOfSpread));
   std::vector<double> weights;
   double sum = 0.0;
-  for (int i = -most; i <= most; ++i) {
+  for (int i = -max_steps; i <= max_steps; ++i) {
     const auto below = [&](double steps) { return std::erfc(-steps * kStepOfSpread / std::numbers::sqrt2); };
     weights.push_back(below(i + 0.5) - below(i - 0.5));
     sum += weights.back();

@@ -58,9 +58,9 @@ void add_orders(const LensState& lens, Ghost ghost, std::vector<Ghost>& to) {
     to.push_back(ghost);
     return;
   }
-  const int most = std::min(lens.sensor_grating.orders, SensorStack::kMaxOrders);
-  for (int x = -most; x <= most; ++x) {
-    for (int y = -most; y <= most; ++y) {
+  const int max_order = std::min(lens.sensor_grating.orders, SensorStack::kMaxOrders);
+  for (int x = -max_order; x <= max_order; ++x) {
+    for (int y = -max_order; y <= max_order; ++y) {
       ghost.order = {x, y};
       to.push_back(ghost);
     }
@@ -111,8 +111,8 @@ bool has_ghost(const LensState& lens, const Ghost& ghost) {
   const auto turns_at = [&](int surface) { return reflects_at(lens, surface); };
   if (!turns_at(ghost.i) || !turns_at(ghost.j)) return false;
   if (ghost.reflects_four_times() && !(turns_at(ghost.k) && turns_at(ghost.l))) return false;
-  const int most = ends_at_grating(lens, ghost) ? lens.sensor_grating.orders : 0;
-  return std::abs(ghost.order[0]) <= most && std::abs(ghost.order[1]) <= most &&
+  const int max_order = ends_at_grating(lens, ghost) ? lens.sensor_grating.orders : 0;
+  return std::abs(ghost.order[0]) <= max_order && std::abs(ghost.order[1]) <= max_order &&
          is_in_scope(lens, ghost, GhostScope::All);
 }
 

@@ -32,7 +32,7 @@ class IrisShape {
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
   [[nodiscard]] double picture_distance(Vec2 p) const { return field_->distance(picture_from_stop(p)); }
   // The transmittance of a picture with half-tones, as the mean over a square (IrisField).
-  [[nodiscard]] bool has_tones() const { return field_ != nullptr && field_->has_tones(); }
+  [[nodiscard]] bool has_half_tones() const { return field_ != nullptr && field_->has_half_tones(); }
   [[nodiscard]] double picture_transmittance(Vec2 p, double width) const {
     return field_->transmittance(picture_from_stop(p), width);
   }

@@ -13,8 +13,8 @@ Meridian meridian_of(const LightSource& light) {
   return {{{across, 0.0, direction.z}, light.distance_mm}, across > 0.0 ? std::atan2(direction.y, direction.x) : 0.0};
 }
 
-Iris turned_back(Iris iris, const Meridian& meridian) {
-  iris.rotation_rad -= meridian.turn_rad;
+Iris rotated_back(Iris iris, const Meridian& meridian) {
+  iris.rotation_rad -= meridian.rotation_rad;
   return iris;
 }
 

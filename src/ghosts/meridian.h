@@ -11,7 +11,7 @@ namespace contrejour::inline internal {
 
 struct Meridian {
   LightSource light;    // its direction: y = 0, x >= 0
-  double turn_rad = 0;  // rotation about the axis from this frame to the lens's
+  double rotation_rad = 0;  // rotation about the axis from this frame to the lens's
   [[nodiscard]] double angle_rad() const;  // of the light to the axis
 };
 
@@ -19,6 +19,6 @@ struct Meridian {
 [[nodiscard]] Meridian meridian_of(const LightSource& light);
 
 // The iris in the meridian's frame.
-[[nodiscard]] Iris turned_back(Iris iris, const Meridian& meridian);
+[[nodiscard]] Iris rotated_back(Iris iris, const Meridian& meridian);
 
 }  // namespace contrejour::inline internal

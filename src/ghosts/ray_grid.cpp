@@ -10,7 +10,7 @@ namespace {
 // Rounding between neighbours may be this fraction of their distance: it is the ripple of a flat ghost.
 constexpr double kMaxRounding = 1e-3;
 // Below this number of pixels only a cell's flux is visible, not its shape.
-constexpr double kUnseenCell_px = 0.25;
+constexpr double kNegligibleCell_px = 0.25;
 constexpr int kProbeRays = 64;
 constexpr double kFloatPupil_mm = 1.0;
 
@@ -37,7 +37,7 @@ std::vector<CubicPoint> cubic_points(int side, int factor) {
 }
 
 // Rotates vectors about the axis.
-void turn(double cosine, double sine, std::vector<float>& x, std::vector<float>& y) {
+void rotate(double cosine, double sine, std::vector<float>& x, std::vector<float>& y) {
   const auto c = static_cast<float>(cosine), s = static_cast<float>(sine);
   for (std::size_t k = 0; k < x.size(); ++k) {
     const float along = x[k], across = y[k];
@@ -56,7 +56,7 @@ void RayGrid::resize(std::size_t count) {
 }
 
 void RayGrid::resize_light(std::size_t count) {
-  for (auto* v : {&transmission, &r_rel, &blocked}) v->resize(count);
+  for (auto* v : {&transmission, &relative_height, &blocked}) v->resize(count);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     for (auto* v : {&stop_x[c], &stop_y[c], &iris_distance[c]}) v->resize(count);
   }
@@ -70,7 +70,8 @@ void RayGrid::prepare(const PacketPath& packets, std::size_t count) {
 
 void RayGrid::trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
                                PacketPrecision precision) {
-  TracedArrays out{sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), r_rel.data(), {}, {}, nullptr, 0};
+  TracedArrays out{
+      sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), relative_height.data(), {}, {}, nullptr, 0};
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     out.stop_x[c] = stop_x[c].data();
     out.stop_y[c] = stop_y[c].data();
@@ -121,7 +122,7 @@ std::size_t RayGrid::trace(PacketPath& packets, const IrisShape& iris, const Lig
   packets.start_from(box.low);
   trace_rows(packets, box, side, rows, precision);
   mirror_rows(rows);
-  put_in_place(iris, light);
+  to_lens_frame(iris, light);
   return at(0, rows);
 }
 
@@ -131,14 +132,14 @@ void RayGrid::trace_points(PacketPath& packets, const IrisShape& iris, const Lig
   prepare(packets, x_mm.size());
   packets.start_from(origin_mm);
   trace_packets_of(packets, x_mm.data(), y_mm.data(), x_mm.size(), precision);
-  put_in_place(iris, light);
+  to_lens_frame(iris, light);
 }
 
 // Rotates the results from a light's own frame to the lens's.
-void RayGrid::put_in_place(const IrisShape& iris, const LightFrame& light) {
-  turn(light.cos_turn, light.sin_turn, sensor_x_mm, sensor_y_mm);
+void RayGrid::to_lens_frame(const IrisShape& iris, const LightFrame& light) {
+  rotate(light.cos_rotation, light.sin_rotation, sensor_x_mm, sensor_y_mm);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c)
-    turn(light.cos_turn, light.sin_turn, stop_x[c], stop_y[c]);
+    rotate(light.cos_rotation, light.sin_rotation, stop_x[c], stop_y[c]);
   find_blocked(iris, blocked.size());
 }
 
@@ -151,7 +152,7 @@ void RayGrid::mirror_rows(int from) {
       for (int ix = 0; ix < side_; ++ix) target[ix] = sign * source[ix];
     }
   };
-  for (auto* same : {&sensor_x_mm, &transmission, &r_rel}) mirror(*same, 1.0F);
+  for (auto* same : {&sensor_x_mm, &transmission, &relative_height}) mirror(*same, 1.0F);
   mirror(sensor_y_mm, -1.0F);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     mirror(stop_x[c], 1.0F);
@@ -162,7 +163,7 @@ void RayGrid::mirror_rows(int from) {
 void RayGrid::refine(const IrisShape& iris, int factor) {
   sensor_x_mm.clear();
   sensor_y_mm.clear();
-  for (auto* v : {&transmission, &r_rel}) refine(*v, factor);
+  for (auto* v : {&transmission, &relative_height}) refine(*v, factor);
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     for (auto* v : {&stop_x[c], &stop_y[c]}) refine(*v, factor);
   }
@@ -195,8 +196,8 @@ void RayGrid::refine(std::vector<float>& values, int factor) const {
   }
 }
 
-void RayGrid::turn_sensor(double angle_rad) {
-  turn(std::cos(angle_rad), std::sin(angle_rad), sensor_x_mm, sensor_y_mm);
+void RayGrid::rotate_sensor(double angle_rad) {
+  rotate(std::cos(angle_rad), std::sin(angle_rad), sensor_x_mm, sensor_y_mm);
 }
 
 float RayGrid::slack(std::span<const std::size_t> corners) const {
@@ -215,7 +216,7 @@ float RayGrid::slack(std::span<const std::size_t> corners) const {
 
 void RayGrid::find_blocked(const IrisShape& iris, std::size_t count) {
   convex_ = !iris.is_picture();
-  for (std::size_t k = 0; k < count; ++k) blocked[k] = r_rel[k] - 1.0F;
+  for (std::size_t k = 0; k < count; ++k) blocked[k] = relative_height[k] - 1.0F;
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
     iris.distances(stop_x[c].data(), stop_y[c].data(), count, iris_distance[c].data());
     // In this order a failed ray's NaN never replaces its infinity.
@@ -264,9 +265,9 @@ PacketPrecision precision_for(const OpticalPath& path, const ReflectanceTables& 
       noise += (rounded - exact) * (rounded - exact);
     }
   }
-  const double unseen_mm = kUnseenCell_px * pixel_pitch_mm;
-  const bool seen = distance > unseen_mm * unseen_mm * kProbeRays;
-  return seen && noise > kMaxRounding * kMaxRounding * distance ? PacketPrecision::Double : PacketPrecision::Float;
+  const double negligible_mm = kNegligibleCell_px * pixel_pitch_mm;
+  const bool resolved = distance > negligible_mm * negligible_mm * kProbeRays;
+  return resolved && noise > kMaxRounding * kMaxRounding * distance ? PacketPrecision::Double : PacketPrecision::Float;
 }
 
 }  // namespace contrejour::inline internal

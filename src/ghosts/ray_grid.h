@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A uniform grid of a light's rays over a rectangle of the entrance plane, traced along one path; hullin2011
-// 4.1. Every vertex keeps the values that are interpolated over cells: sensor point, transmission, r_rel and stop
-// coordinates.
+// 4.1. Every vertex keeps the values that are interpolated over cells: sensor point, transmission, relative_height and
+// stop coordinates.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +63,7 @@ class RayGrid {
   void refine(const IrisShape& iris, int factor);
 
   // Turns the sensor points about the axis; the crossings of the stop stay as they are.
-  void turn_sensor(double angle_rad);
+  void rotate_sensor(double angle_rad);
 
   [[nodiscard]] int side() const { return side_; }
   [[nodiscard]] int cells() const { return side_ - 1; }
@@ -87,9 +87,9 @@ class RayGrid {
   [[nodiscard]] bool is_obscured() const { return obscured_; }
 
   // One value a vertex. A ray that failed has blocked = infinity.
-  std::vector<float> sensor_x_mm, sensor_y_mm, transmission, r_rel;
+  std::vector<float> sensor_x_mm, sensor_y_mm, transmission, relative_height;
   std::array<std::vector<float>, kMaxStopCrossings> stop_x, stop_y, iris_distance;
-  std::vector<float> blocked;  // the largest of r_rel - 1 and the iris distances
+  std::vector<float> blocked;  // the largest of relative_height - 1 and the iris distances
 
  private:
   void resize(std::size_t count);
@@ -97,7 +97,7 @@ class RayGrid {
   void prepare(const PacketPath& packets, std::size_t count);
   void trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
                         PacketPrecision precision);
-  void put_in_place(const IrisShape& iris, const LightFrame& light);
+  void to_lens_frame(const IrisShape& iris, const LightFrame& light);
   void trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows, PacketPrecision precision);
   void mirror_rows(int from);
   void refine(std::vector<float>& values, int factor) const;

@@ -133,20 +133,20 @@ std::string printable(std::string_view text) {
 }  // namespace
 
 Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const std::string& name) {
-  const SourcePlace place{name};
+  const SourcePosition position{name};
   ByteReader in(bytes);
   const auto magic = in.u32(), version = in.u32();
-  if (!magic || !version) return failure(ErrorCode::Parse, "the OpenEXR file ends within its header", place);
+  if (!magic || !version) return failure(ErrorCode::Parse, "the OpenEXR file ends within its header", position);
   if ((*version & kVersionMask) != 2)
     return failure(ErrorCode::Unsupported, fmt::format("OpenEXR version {} is not known", *version & kVersionMask),
-                   place);
+                   position);
   const bool is_multi_part = (*version & kMultiPartFlag) != 0;
   if ((*version & kDeepFlag) != 0 && !is_multi_part)
-    return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", place);
+    return failure(ErrorCode::Unsupported, "deep OpenEXR pictures are not read; flatten it first", position);
   bool is_first = true;  // first attribute of its part: an empty name ends a part, and an empty part ends the header
   while (true) {
     const auto attribute = in.name();
-    if (!attribute) return failure(ErrorCode::Parse, "the OpenEXR header is damaged or cut off", place);
+    if (!attribute) return failure(ErrorCode::Parse, "the OpenEXR header is damaged or cut off", position);
     if (attribute->empty()) {
       if (!is_multi_part || is_first) return ExrHeaderSize{in.position(), is_multi_part};
       is_first = true;
@@ -159,12 +159,12 @@ Result<ExrHeaderSize> check_exr_header(std::span<const std::byte> bytes, const s
                      fmt::format("attribute '{}' is a manifest of identifiers, which OpenEXR 3.1 cannot read; save the "
                                  "picture without it",
                                  printable(*attribute)),
-                     place);
+                     position);
     const auto size = type ? in.u32() : std::nullopt;
     const auto value = size ? in.take(*size) : std::nullopt;
     if (!value || !is_value_of(*type, *value))
       return failure(ErrorCode::Parse,
-                     fmt::format("the OpenEXR header is damaged at attribute '{}'", printable(*attribute)), place);
+                     fmt::format("the OpenEXR header is damaged at attribute '{}'", printable(*attribute)), position);
   }
 }
 

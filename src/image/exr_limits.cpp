@@ -75,36 +75,36 @@ PixelWindow window_of(const Imath::Box2i& box) {
 
 Result<void> check_exr_size(const Imf::Header& header, std::uint64_t header_bytes, std::uint64_t file_bytes,
                             const ReadLimits& limits, const std::string& name) {
-  const SourcePlace place{name};
+  const SourcePosition position{name};
   const PixelWindow window = window_of(header.dataWindow());
   const std::uint64_t pixels = static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);
   if (pixels > limits.max_pixels)
     return failure(ErrorCode::Unsupported,
                    fmt::format("the picture claims {} x {} pixels, more than the limit of {}", window.width,
                                window.height, limits.max_pixels),
-                   place);
+                   position);
   const std::uint64_t bytes = sample_bytes(header, window);
   std::uint64_t tile_bytes = 0;  // OpenEXR holds one row of tiles
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tile = header.tileDescription();
     if (tile.xSize > limits.max_pixels || tile.ySize > limits.max_pixels)
-      return failure(ErrorCode::Parse, "the OpenEXR file's tiles are absurdly large", place);
+      return failure(ErrorCode::Parse, "the OpenEXR file's tiles are absurdly large", position);
     const std::uint64_t across = std::max<std::uint64_t>(tile.xSize, static_cast<std::uint64_t>(window.width));
     tile_bytes = across * tile.ySize * bytes_per_pixel(header);
   }
   const std::uint64_t image_bytes = 3 * sizeof(float) * pixels;
   if (std::max(bytes + image_bytes, tile_bytes) > limits.max_bytes)
     return failure(ErrorCode::Unsupported,
-                   fmt::format("the picture needs more memory than the limit of {} bytes", limits.max_bytes), place);
+                   fmt::format("the picture needs more memory than the limit of {} bytes", limits.max_bytes), position);
 
   // Each chunk has an offset, a position and a size, and its codec limits the size of its data.
   const std::uint64_t chunks = chunk_count(header, window);
-  const std::uint64_t least = header_bytes + chunks * (8 + 8) + bytes / largest_compression(header.compression());
-  if (file_bytes < least)
+  const std::uint64_t min_bytes = header_bytes + chunks * (8 + 8) + bytes / largest_compression(header.compression());
+  if (file_bytes < min_bytes)
     return failure(ErrorCode::Parse,
                    fmt::format("the file is cut off: {} bytes cannot hold its {} x {} pixels", file_bytes, window.width,
                                window.height),
-                   place);
+                   position);
   return {};
 }
 

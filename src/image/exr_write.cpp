@@ -171,7 +171,7 @@ bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf:
 }  // namespace
 
 Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const Context& context) {
-  const SourcePlace place{file.destination().string()};
+  const SourcePosition position{file.destination().string()};
   const Imf::Header header = header_to_write(picture);
   std::vector<std::vector<std::byte>> samples = samples_of_channels(picture);
   Imf::FrameBuffer frame_buffer;
@@ -180,7 +180,7 @@ Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const C
     const SampleType type = exr_type(channel.type);
     if (samples[k].size() != sample_count(picture.data_window, channel.x_sampling, channel.y_sampling) * size_of(type))
       return failure(ErrorCode::InvalidArgument,
-                     fmt::format("channel '{}' does not fill the picture's window", channel.name), place);
+                     fmt::format("channel '{}' does not fill the picture's window", channel.name), position);
     frame_buffer.insert(channel.name, Imf::Slice::Make(pixel_type(type), samples[k].data(), header.dataWindow(), 0, 0,
                                                        channel.x_sampling, channel.y_sampling));
   }
@@ -193,10 +193,10 @@ Result<void> write_picture_exr(OutputFile& file, const Picture& picture, const C
     finished = parts != nullptr ? write_parts(stream, *parts, header, frame_buffer, height, context)
                                 : write_single(stream, header, frame_buffer, height, context);
   } catch (const std::exception& e) {
-    return failure(ErrorCode::Io, fmt::format("cannot write: {}", e.what()), place);
+    return failure(ErrorCode::Io, fmt::format("cannot write: {}", e.what()), position);
   }
   if (stream.error()) return tl::unexpected(*stream.error());
-  if (!finished || context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);
+  if (!finished || context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", position);
   return {};
 }
 

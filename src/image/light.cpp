@@ -93,16 +93,16 @@ LightShape coarser(const LightShape& shape, int by) {
   return out;
 }
 
-Vec3 direction_beside(Vec3 direction, Vec2 tangents) {
-  const Vec3 seen_at = -normalized(direction);
-  Vec3 right = cross_product(seen_at, {0.0, 1.0, 0.0});
+Vec3 offset_direction(Vec3 direction, Vec2 tangents) {
+  const Vec3 towards_light = -normalized(direction);
+  Vec3 right = cross_product(towards_light, {0.0, 1.0, 0.0});
   right = length(right) > 1e-12 ? normalized(right) : Vec3{1.0, 0.0, 0.0};
-  const Vec3 up = cross_product(right, seen_at);
-  return -normalized(seen_at + right * tangents.x + up * tangents.y);
+  const Vec3 up = cross_product(right, towards_light);
+  return -normalized(towards_light + right * tangents.x + up * tangents.y);
 }
 
-LightSource source_beside(const LightSource& source, Vec2 tangents) {
-  return {direction_beside(source.direction, tangents), source.distance_mm};
+LightSource offset_source(const LightSource& source, Vec2 tangents) {
+  return {offset_direction(source.direction, tangents), source.distance_mm};
 }
 
 }  // namespace contrejour

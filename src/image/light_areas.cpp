@@ -111,12 +111,12 @@ DetectedLight merged(const DetectedLight& a, const DetectedLight& b) {
   DetectedLight sum;
   for (std::size_t c = 0; c < 3; ++c) sum.flux[c] = a.flux[c] + b.flux[c];
   const double fraction = total_flux(b) / (total_flux(a) + total_flux(b));
-  const Vec2 apart = b.centroid_px - a.centroid_px;
-  sum.centroid_px = a.centroid_px + fraction * apart;
+  const Vec2 offset = b.centroid_px - a.centroid_px;
+  sum.centroid_px = a.centroid_px + fraction * offset;
   // Steiner's theorem for the second moments.
   const double within =
       (1 - fraction) * a.rms_radius_px * a.rms_radius_px + fraction * b.rms_radius_px * b.rms_radius_px;
-  sum.rms_radius_px = std::sqrt(within + fraction * (1 - fraction) * dot(apart, apart));
+  sum.rms_radius_px = std::sqrt(within + fraction * (1 - fraction) * dot(offset, offset));
   sum.min_x = std::min(a.min_x, b.min_x);
   sum.min_y = std::min(a.min_y, b.min_y);
   sum.max_x = std::max(a.max_x, b.max_x);
@@ -150,14 +150,14 @@ std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& se
   }
 
   std::vector<DetectedLight> areas;
-  std::vector<std::size_t> place(run_lights.size());
+  std::vector<std::size_t> index(run_lights.size());
   for (std::size_t i = 0; i < run_lights.size(); ++i) {
     const std::size_t root = labels.root(i);
-    place[i] = root == i ? areas.size() : place[root];
+    index[i] = root == i ? areas.size() : index[root];
     if (root == i) {
       areas.push_back(run_lights[i]);
     } else {
-      DetectedLight& area = areas[place[root]];
+      DetectedLight& area = areas[index[root]];
       area = merged(area, run_lights[i]);
       area.merged_areas = 1;
     }
@@ -166,7 +166,7 @@ std::vector<DetectedLight> bright_areas(const Image& rgb, const AreaSettings& se
   area_of_pixel.assign(static_cast<std::size_t>(rgb.width) * static_cast<std::size_t>(rgb.height), -1);
   for (std::size_t i = 0; i < all_runs.size(); ++i) {
     const auto row = area_of_pixel.begin() + static_cast<std::ptrdiff_t>(all_runs[i].y) * rgb.width;
-    std::fill(row + all_runs[i].begin, row + all_runs[i].end, static_cast<std::int32_t>(place[i]));
+    std::fill(row + all_runs[i].begin, row + all_runs[i].end, static_cast<std::int32_t>(index[i]));
   }
   return areas;
 }

@@ -18,12 +18,12 @@ bool comes_first(const DetectedLight& a, const DetectedLight& b) {
                           : std::tie(a.centroid_px.y, a.centroid_px.x) < std::tie(b.centroid_px.y, b.centroid_px.x);
 }
 
-std::size_t nearest(const std::vector<Vec2>& centroids, Vec2 place) {
+std::size_t nearest(const std::vector<Vec2>& centroids, Vec2 point) {
   std::size_t best = 0;
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < centroids.size(); ++i) {
-    const Vec2 apart = centroids[i] - place;
-    const double distance = dot(apart, apart);
+    const Vec2 offset = centroids[i] - point;
+    const double distance = dot(offset, offset);
     if (distance >= best_distance) continue;
     best = i;
     best_distance = distance;
@@ -129,8 +129,8 @@ Result<Detection> detect_lights(const Image& picture, const DetectionSettings& s
   std::erase_if(detection.lights, [&](const DetectedLight& l) { return l.pixel_count < settings.min_pixels; });
   detection.areas_found = static_cast<int>(detection.lights.size());
   std::sort(detection.lights.begin(), detection.lights.end(), comes_first);
-  const auto most = static_cast<std::size_t>(settings.max_lights);
-  if (detection.lights.size() > most) merge_tail(detection.lights, most);
+  const auto max_lights = static_cast<std::size_t>(settings.max_lights);
+  if (detection.lights.size() > max_lights) merge_tail(detection.lights, max_lights);
   return detection;
 }
 

@@ -54,18 +54,18 @@ std::size_t count_finite(std::span<const float> samples) {
   return samples.size() - others;
 }
 
-// The finite samples that are at least `least`; most runs of samples have none and need one test.
-std::vector<float> samples_from(std::span<const float> samples, float least) {
+// The finite samples that are at least `smallest`; most runs of samples have none and need one test.
+std::vector<float> samples_from(std::span<const float> samples, float smallest) {
   constexpr std::size_t kAtOnce = 32;
   constexpr float kMaxFinite = std::numeric_limits<float>::max();
   std::vector<float> found;
   const auto keep = [&](float value) {
-    if (value >= least && value <= kMaxFinite) found.push_back(value);
+    if (value >= smallest && value <= kMaxFinite) found.push_back(value);
   };
   std::size_t k = 0;
   for (; k + kAtOnce <= samples.size(); k += kAtOnce) {
     int any = 0;
-    for (std::size_t i = 0; i < kAtOnce; ++i) any |= samples[k + i] >= least ? 1 : 0;
+    for (std::size_t i = 0; i < kAtOnce; ++i) any |= samples[k + i] >= smallest ? 1 : 0;
     if (any != 0) std::ranges::for_each(samples.subspan(k, kAtOnce), keep);
   }
   std::ranges::for_each(samples.subspan(k), keep);
@@ -104,13 +104,13 @@ double quantile_of_samples(const Image& image, double q) {
   const std::size_t count = count_finite(image.pixels);
   if (count == 0) return 0;
   const double fraction = std::isnan(q) ? 0.0 : std::clamp(q, 0.0, 1.0);
-  const double place = fraction * static_cast<double>(count - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double position = fraction * static_cast<double>(count - 1);
+  const auto below = static_cast<std::size_t>(position);
   const std::size_t above = count - 1 - below;
   std::vector<float> samples =
       above < count / kFewOf ? some_of_the_largest(image.pixels, above + 1) : finite_samples(image);
   const auto [low, high] = neighbours_below(samples, above);
-  return low + (place - static_cast<double>(below)) * (high - low);
+  return low + (position - static_cast<double>(below)) * (high - low);
 }
 
 Result<Comparison> compare(const Image& a, const Image& b) {
@@ -139,8 +139,8 @@ Result<Comparison> compare(const Image& a, const Image& b) {
     const double difference = static_cast<double>(va) - vb;
     result.max_abs_error = std::max(result.max_abs_error, std::abs(difference));
     const auto clipped = [&](double value) { return std::clamp(value, -result.peak, result.peak); };
-    const double seen = clipped(va) - clipped(vb);
-    square_error += seen * seen;
+    const double clipped_difference = clipped(va) - clipped(vb);
+    square_error += clipped_difference * clipped_difference;
   }
   for (std::size_t c = 0; c < channels; ++c) result.flux_ratio.push_back(ratio(sum_b[c], sum_a[c]));
   if (square_error > 0) {

@@ -57,12 +57,12 @@ Result<Format> format_of(std::span<const std::byte> bytes, const std::string& na
 
 // Reads no more than the first bytes of a file that is no picture: a device may be endless.
 Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t max_bytes) {
-  const SourcePlace place{file.string()};
+  const SourcePosition position{file.string()};
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
-    return failure(ErrorCode::Io, "this is a folder; give a picture's name", place);
+    return failure(ErrorCode::Io, "this is a folder; give a picture's name", position);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) return failure(ErrorCode::Io, std::string("cannot open: ") + std::strerror(errno), place);
+  if (!stream) return failure(ErrorCode::Io, std::string("cannot open: ") + std::strerror(errno), position);
   // Reads in pieces: a pipe has no size, and that of a file may be wrong (/dev/zero).
   constexpr std::size_t kPiece = std::size_t{1} << 20, kMagic = 4;
   const std::uintmax_t expected = std::filesystem::file_size(file, error);
@@ -71,7 +71,7 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
   bytes.resize(kMagic);
   stream.read(reinterpret_cast<char*>(bytes.data()), kMagic);
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  if (const auto format = format_of(bytes, place.file); !format) return tl::unexpected(format.error());
+  if (const auto format = format_of(bytes, position.file); !format) return tl::unexpected(format.error());
   while (stream) {
     const std::size_t have = bytes.size();
     const std::size_t step = bytes.capacity() > have ? std::min(kPiece, bytes.capacity() - have) : kPiece;
@@ -79,9 +79,9 @@ Result<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std
     stream.read(reinterpret_cast<char*>(bytes.data() + have), static_cast<std::streamsize>(step));
     bytes.resize(have + static_cast<std::size_t>(stream.gcount()));
     if (bytes.size() > max_bytes)
-      return failure(ErrorCode::Unsupported, fmt::format("the file is larger than {} bytes", max_bytes), place);
+      return failure(ErrorCode::Unsupported, fmt::format("the file is larger than {} bytes", max_bytes), position);
   }
-  if (stream.bad()) return failure(ErrorCode::Io, "cannot read", place);
+  if (stream.bad()) return failure(ErrorCode::Io, "cannot read", position);
   return bytes;
 }
 
@@ -231,19 +231,19 @@ Result<void> write_picture(const std::filesystem::path& file, const Picture& pic
 
 Result<void> write_picture(OutputFile& file, const Picture& picture, const Context& context) {
   const std::string extension = lower_extension(file.destination());
-  const SourcePlace place{file.destination().string()};
+  const SourcePosition position{file.destination().string()};
   if (auto sound = check_picture(picture); !sound) {
-    sound.error().place = place;
+    sound.error().position = position;
     return sound;
   }
   try {
     if (extension == ".exr") return write_picture_exr(file, picture, context);
     if (extension == ".png") return write_picture_png(file, picture, context);
   } catch (const std::exception& e) {
-    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
+    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), position);
   }
   return failure(ErrorCode::InvalidArgument, fmt::format("cannot write pictures as '{}'; use .exr or .png", extension),
-                 place);
+                 position);
 }
 
 Result<void> write_exr(const std::filesystem::path& file, const Image& image, SampleType type, const Context& context) {

@@ -22,8 +22,9 @@ struct PngLayout {
 // Receives a file's bytes, in order.
 using PngSink = std::function<Result<void>(std::span<const std::byte>)>;
 
-// Calls fill(y, row) for each row from the top. Marked as sRGB. place: for errors. Errors: the sink's, Io, Cancelled.
-[[nodiscard]] Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
+// Calls fill(y, row) for each row from the top. Marked as sRGB. position: for errors. Errors: the sink's, Io,
+// Cancelled.
+[[nodiscard]] Result<void> write_png(const PngSink& sink, const SourcePosition& position, const PngLayout& layout,
                                      const std::function<void(int y, std::byte* row)>& fill, const Context& context);
 
 // Ignores libpng's warnings, none of which makes a picture useless.

@@ -79,31 +79,31 @@ bool write_end(PngWriter& w) {
   return true;
 }
 
-tl::unexpected<Error> failed(const PngWriter& writer, const SourcePlace& place) {
+tl::unexpected<Error> failed(const PngWriter& writer, const SourcePosition& position) {
   if (writer.error) return tl::unexpected(*writer.error);
-  return failure(ErrorCode::Io, fmt::format("cannot write: {}", writer.message), place);
+  return failure(ErrorCode::Io, fmt::format("cannot write: {}", writer.message), position);
 }
 
 }  // namespace
 
-Result<void> write_png(const PngSink& sink, const SourcePlace& place, const PngLayout& layout,
+Result<void> write_png(const PngSink& sink, const SourcePosition& position, const PngLayout& layout,
                        const std::function<void(int y, std::byte* row)>& fill, const Context& context) {
   PngWriter writer(sink);
   writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, on_write_error, ignore_png_warning);
   writer.info = writer.png == nullptr ? nullptr : png_create_info_struct(writer.png);
   if (writer.info == nullptr) throw std::bad_alloc();
 
-  if (!write_header(writer, layout)) return failed(writer, place);
+  if (!write_header(writer, layout)) return failed(writer, position);
   std::vector<std::byte> row(static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.channels) *
                              static_cast<std::size_t>(layout.bits / 8));
   for (int y = 0; y < layout.height; ++y) {
     if (y % kPngRowsBetweenCancelChecks == 0 && context.cancelled())
-      return failure(ErrorCode::Cancelled, "cancelled", place);
+      return failure(ErrorCode::Cancelled, "cancelled", position);
     fill(y, row.data());
-    if (!write_row(writer, row.data())) return failed(writer, place);
+    if (!write_row(writer, row.data())) return failed(writer, position);
   }
-  if (!write_end(writer)) return failed(writer, place);
-  if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", place);
+  if (!write_end(writer)) return failed(writer, position);
+  if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled", position);
   return {};
 }
 

@@ -14,15 +14,15 @@ constexpr float kRollOffStart = 0.8F;
 // Linear up to the knee, from there with a continuous slope towards 1.
 float roll_off(float value) {
   if (!(value > kRollOffStart)) return value;
-  constexpr float room = 1 - kRollOffStart;
-  return 1 - room * std::exp((kRollOffStart - value) / room);
+  constexpr float headroom = 1 - kRollOffStart;
+  return 1 - headroom * std::exp((kRollOffStart - value) / headroom);
 }
 
-Result<void> write_preview(const PngSink& sink, const SourcePlace& place, const Image& rgb,
+Result<void> write_preview(const PngSink& sink, const SourcePosition& position, const Image& rgb,
                            const PreviewSettings& settings, const Context& context) {
   const bool complete =
       rgb.width > 0 && rgb.height > 0 && rgb.channels > 0 && rgb.pixels.size() == rgb.index(0, rgb.height);
-  if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", place);
+  if (!complete) return failure(ErrorCode::InvalidArgument, "the image is empty", position);
   const float gain = static_cast<float>(std::exp2(settings.exposure_stops));
   const int channels = rgb.channels < 3 ? 1 : 3;
   const auto fill = [&](int y, std::byte* row) {
@@ -34,9 +34,9 @@ Result<void> write_preview(const PngSink& sink, const SourcePlace& place, const 
       }
   };
   try {
-    return write_png(sink, place, {rgb.width, rgb.height, channels, 8}, fill, context);
+    return write_png(sink, position, {rgb.width, rgb.height, channels, 8}, fill, context);
   } catch (const std::exception& e) {
-    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), place);
+    return failure(ErrorCode::Io, std::string("cannot write: ") + e.what(), position);
   }
 }
 

@@ -44,7 +44,7 @@ constexpr int kMaxBands = 100000;
 
 // Several bands of one spectral line may be at the same whole nanometre; their wavelengths are separated by this, as no
 // two may be equal.
-constexpr double kApart_nm = 1e-6;
+constexpr double kMaxSpacing_nm = 1e-6;
 
 using Samples = std::array<Sample, cie::kObserverCount>;
 
@@ -129,7 +129,7 @@ std::vector<SpectralBand> spectral_bands(int count, const Spectrum& light, Colou
     const Sample end = last ? total : cumulative.up_to_visible(fraction * total.visible);
     const Sample band = end + (-1.0) * begin;
     bands[k].lambda_nm = band.moment / band.visible;
-    if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kApart_nm);
+    if (k > 0) bands[k].lambda_nm = std::max(bands[k].lambda_nm, bands[k - 1].lambda_nm + kMaxSpacing_nm);
     bands[k].spread_nm = std::sqrt(std::max(0.0, band.second / band.visible - bands[k].lambda_nm * bands[k].lambda_nm));
     for (std::size_t c = 0; c < 3; ++c) {
       // The channel's own integral, plus enough of the absolute one to keep the quotient bounded.

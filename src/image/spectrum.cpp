@@ -28,10 +28,10 @@ double relative_planck(double lambda_nm, double b_nm) {
 }
 
 double illuminant_d65(double lambda_nm) {
-  const double place = (lambda_nm - cie::kD65FirstNm) / cie::kD65StepNm;
-  if (!(place >= 0) || place > cie::kD65Count - 1) return 0;
-  const auto i = std::min(static_cast<std::size_t>(place), cie::kIlluminantD65.size() - 2);
-  const double t = place - static_cast<double>(i);
+  const double position = (lambda_nm - cie::kD65FirstNm) / cie::kD65StepNm;
+  if (!(position >= 0) || position > cie::kD65Count - 1) return 0;
+  const auto i = std::min(static_cast<std::size_t>(position), cie::kIlluminantD65.size() - 2);
+  const double t = position - static_cast<double>(i);
   return ((1 - t) * cie::kIlluminantD65[i] + t * cie::kIlluminantD65[i + 1]) / 100;
 }
 
@@ -100,10 +100,10 @@ bool is_visible(const TabulatedSpectrum& spectrum) {
 }
 
 Xyz colour_matching(double lambda_nm) {
-  const double place = lambda_nm - cie::kObserverFirstNm;
-  if (!(place >= 0) || place > cie::kObserverCount - 1) return {};
-  const auto i = std::min(static_cast<std::size_t>(place), cie::kObserver1931.size() - 2);
-  const double t = place - static_cast<double>(i);
+  const double position = lambda_nm - cie::kObserverFirstNm;
+  if (!(position >= 0) || position > cie::kObserverCount - 1) return {};
+  const auto i = std::min(static_cast<std::size_t>(position), cie::kObserver1931.size() - 2);
+  const double t = position - static_cast<double>(i);
   Xyz xyz{};
   for (std::size_t c = 0; c < 3; ++c) xyz[c] = (1 - t) * cie::kObserver1931[i][c] + t * cie::kObserver1931[i + 1][c];
   return xyz;

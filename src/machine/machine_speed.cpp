@@ -18,7 +18,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kRounds = 5;
-constexpr double kMostPixels = 268435456.0;  // the limit of a render
+constexpr double kMaxPixels = 268435456.0;  // the limit of a render
 constexpr double kLambda_nm = 550.0;
 // A number of rays that fills long vectors and fits into a core's own cache.
 constexpr std::size_t kRaysPerSide = 32;
@@ -44,7 +44,7 @@ class RaySquare {
     out.sensor_x_mm = take();
     out.sensor_y_mm = take();
     out.transmission = take();
-    out.r_rel = take();
+    out.relative_height = take();
     for (auto& x : out.stop_x) x = take();
     for (auto& y : out.stop_y) y = take();
     trace_packets(path, PacketPrecision::Float, x_mm_.data(), y_mm_.data(), kRays, out);
@@ -90,7 +90,7 @@ double peak_hits_per_ms(const LensState& lens, const Context& context) {
 }
 
 double frame_pass_ms(int width, int height, const Context& context) {
-  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMostPixels) return 0.0;
+  if (width < 1 || height < 1 || static_cast<double>(width) * height > kMaxPixels) return 0.0;
   Image image(width, height, 3);
   const auto row_floats = static_cast<std::size_t>(width) * 3;
   float value = 0.0F;

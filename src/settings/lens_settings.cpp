@@ -41,7 +41,7 @@ Result<Dirt> dirt(const Values& values) {
   dirt.scratch_spread_rad = values.number("scratch-spread") * kDegree_rad;
   dirt.plane = choice<DirtPlane>(values, "dirt-plane");
   dirt.seed = seed(values, "dirt-seed");
-  dirt.time = values.number("dirt-phase");
+  dirt.phase = values.number("dirt-phase");
   if (const auto file = values.text("dirt-image")) {
     auto picture = read_dirt_image(*file);
     if (!picture) return tl::unexpected(picture.error());

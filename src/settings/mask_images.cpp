@@ -24,7 +24,7 @@ Result<Value> read_levels(const std::string& file, Result<Value> (*make)(std::sp
   for (std::size_t k = 0; k + 2 < rgb.pixels.size(); k += 3)
     level.push_back((rgb.pixels[k] + rgb.pixels[k + 1] + rgb.pixels[k + 2]) / 3.0F);
   auto value = make(level, rgb.width, rgb.height);
-  if (!value) value.error().place.file = file;
+  if (!value) value.error().position.file = file;
   return value;
 }
 

@@ -67,7 +67,7 @@ Result<std::vector<double>> parse_reals(std::string_view text, std::size_t count
 }
 
 Result<int> parse_wavelengths(std::string_view text) {
-  if (text == "auto") return kWavelengthsByNeed;
+  if (text == "auto") return kAutoWavelengths;
   int count = 0;
   if (!read_whole(text, count) || count < 1 || count > 1024) {
     return invalid_argument(

@@ -114,7 +114,7 @@ Result<std::vector<GhostRampStop>> parse_ghost_ramp(std::string_view text) {
   for (const std::string_view part : split(text, '/')) {
     const auto stop = parse_ramp_stop(part);
     if (!stop) return tl::unexpected(stop.error());
-    if (!ramp.empty() && !(stop->place > ramp.back().place))
+    if (!ramp.empty() && !(stop->position > ramp.back().position))
       return invalid_argument(fmt::format("\"{}\" is out of order; give a ramp's positions in increasing order", part));
     ramp.push_back(*stop);
   }

@@ -39,12 +39,12 @@ Error unknown_key(const KeyValue& given) {
     return {
         ErrorCode::Parse,
         fmt::format("{} describes a scene and is not part of a preset; give --{} on the command line", p.name, p.name),
-        given.place};
+        given.position};
   }
   const std::string nearest = nearest_name(given.key, known_keys());
   const std::string remedy = nearest.empty() ? fmt::format("see {}", kPage) : fmt::format("did you mean {}?", nearest);
   return {ErrorCode::Parse, fmt::format("\"{}\" is not a key of a preset; {}", given.key.substr(0, 60), remedy),
-          given.place};
+          given.position};
 }
 
 std::string* heading(Preset& preset, std::string_view key) {
@@ -56,7 +56,7 @@ std::string* heading(Preset& preset, std::string_view key) {
 
 Result<void> set_key(Preset& preset, const KeyValue& given) {
   const auto wrong = [&](std::string_view what) {
-    return failure(ErrorCode::Parse, fmt::format("{}: {}", given.key, what), given.place);
+    return failure(ErrorCode::Parse, fmt::format("{}: {}", given.key, what), given.position);
   };
   if (std::string* text = heading(preset, given.key)) {
     if (given.kind != KeyValue::Kind::Text) return wrong("the value is not text; write it in quotes");

@@ -19,8 +19,8 @@ GhostOptions ghost_options(const Values& values) {
   options.edge_gain = values.number("ghost-edge-gain");
   for (const std::string& given : values.list("ghost")) options.adjustments.push_back(*parse_ghost_adjustment(given));
   if (const auto ramp = values.text("ghost-ramp")) options.ramp = *parse_ghost_ramp(*ramp);
-  options.scatter = values.number("ghost-jitter");
-  options.scatter_seed = static_cast<std::uint32_t>(values.integer("ghost-seed"));
+  options.jitter = values.number("ghost-jitter");
+  options.jitter_seed = static_cast<std::uint32_t>(values.integer("ghost-seed"));
   return options;
 }
 
@@ -93,7 +93,7 @@ FrameSettings frame_settings(const Values& values, const Frame& frame, ColourSpa
   settings.area_error = *parse_error_bound(*values.text("error"));
   settings.starburst.on = values.is_on("starburst");
   settings.starburst.gain = values.number("starburst-gain");
-  settings.glare.share = values.number("glare");
+  settings.glare.fraction = values.number("glare");
   settings.glare.width_rad = values.number("glare-width") * kDegree_rad;
   settings.ghosts = ghost_options(values);
   settings.ringing = ringing_options(values);

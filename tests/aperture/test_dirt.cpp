@@ -113,7 +113,7 @@ TEST_CASE("scratches have the density, lengths, widths, directions and bends tha
   CHECK(std::abs(bends / count) < 0.01);
 }
 
-TEST_CASE("a seed is its dirt: other seeds share nothing, places do not depend on the box, more adds to less") {
+TEST_CASE("a seed is its dirt: other seeds share nothing, points do not depend on the box, more adds to less") {
   Dirt dirt;
   dirt.dust_per_cm2 = 30.0;
   dirt.scratches_per_cm2 = 5.0;
@@ -151,8 +151,8 @@ TEST_CASE("dirt wanders smoothly and comes back after a turn") {
   Dirt dirt;
   dirt.dust_per_cm2 = 40.0;
   dirt.drift_mm = 0.5;
-  const auto at = [&](double time) {
-    dirt.time = time;
+  const auto at = [&](double phase) {
+    dirt.phase = phase;
     return dirt_within(dirt, {-200.0, -200.0}, {200.0, 200.0});  // so large that hardly any leave or enter
   };
   const auto still = at(0.0), back = at(3.0);
@@ -162,8 +162,8 @@ TEST_CASE("dirt wanders smoothly and comes back after a turn") {
   const double fastest = 0.5 * 0.5 * 3.0 * 2.0 * kPi;
   constexpr double kFrame = 0.001;
   double farthest = 0.0;
-  for (const double time : {0.0, 0.25, 0.9995}) {
-    const auto one = at(time), next = at(time + kFrame);
+  for (const double phase : {0.0, 0.25, 0.9995}) {
+    const auto one = at(phase), next = at(phase + kFrame);
     for (std::size_t k = 0, other = 0; k < one.size() && other < next.size(); ++k, ++other) {
       while (other < next.size() && one[k].width_mm != next[other].width_mm) ++other;  // a new one
       if (other == next.size()) break;
@@ -192,7 +192,7 @@ TEST_CASE("a stroke's outline and its distance are those of points about its lin
         const double expected = nearest - 0.1;
         CHECK(s.distance_mm(p) == doctest::Approx(expected).epsilon(1e-3));
         if (std::abs(expected) > 0.004) CHECK(test::inside_polygon(outline, p) == (expected < 0.0));
-        CHECK((expected > 0.0 || length(p - s.middle_mm) <= s.reach_mm()));
+        CHECK((expected > 0.0 || length(p - s.middle_mm) <= s.outer_radius_mm()));
       }
     }
   }
@@ -229,13 +229,13 @@ TEST_CASE("dirt that cannot be is refused; none is none") {
     CHECK_FALSE(check_dirt({.opacity = value}).has_value());
     CHECK_FALSE(check_dirt({.drift_mm = value}).has_value());
   }
-  CHECK_FALSE(check_dirt({.time = nan}).has_value());
+  CHECK_FALSE(check_dirt({.phase = nan}).has_value());
   // All parameters at the ends of their ranges.
-  Dirt most{.dust_per_cm2 = Dirt::kMaxDustPerCm2, .dust_mm = 10.0, .scratches_per_cm2 = Dirt::kMaxScratchesPerCm2};
-  most.scratch_length_mm = Dirt::kLongest_mm;
-  most.scratch_width_mm = 10.0;
-  most.time = -1e6;
-  CHECK(check_dirt(most).has_value());
-  for (const DirtStroke& s : dirt_within(most, {-1.0, -1.0}, {1.0, 1.0}))
+  Dirt largest{.dust_per_cm2 = Dirt::kMaxDustPerCm2, .dust_mm = 10.0, .scratches_per_cm2 = Dirt::kMaxScratchesPerCm2};
+  largest.scratch_length_mm = Dirt::kLongest_mm;
+  largest.scratch_width_mm = 10.0;
+  largest.phase = -1e6;
+  CHECK(check_dirt(largest).has_value());
+  for (const DirtStroke& s : dirt_within(largest, {-1.0, -1.0}, {1.0, 1.0}))
     for (const Vec2 p : dirt_outline(s)) REQUIRE(std::isfinite(p.x + p.y));
 }

@@ -136,7 +136,7 @@ TEST_CASE("an iris of a picture turns with it") {
 TEST_CASE("smooth edges are no half-tones: such a picture lets all of the light pass or none") {
   for (const auto& field : {flower_field(), flower_field(64), drawn_field(300, [](Vec2 p) { return p.x > 0.1 * p.y; }),
                             drawn_field(30, [](Vec2 p) { return length(p - Vec2{0.2, 0.1}) < 0.6; })}) {
-    CHECK_FALSE(field->has_tones());
+    CHECK_FALSE(field->has_half_tones());
     for (int k = 0; k < 500; ++k) {
       const Vec2 p = scattered(k);
       CHECK(field->transmittance(p) == (field->distance(p) <= 0.0 ? 1.0 : 0.0));
@@ -151,7 +151,7 @@ TEST_CASE("half-tones let their share of the light pass") {
   for (const int side : {100, 301, 1500}) {
     CAPTURE(side);
     const auto field = drawn_field(side, [&](Vec2 p) { return in_ring(p) ? tone(p) : 0.0; });
-    REQUIRE(field->has_tones());
+    REQUIRE(field->has_half_tones());
     const double highest = tone({1.0 - 1.0 / side, 0.0}), pixel = 2.0 / std::min(side, field->samples());
     double light = 0.0, area = 0.0;
     for (int k = 0; k < 40000; ++k) {
@@ -182,10 +182,10 @@ TEST_CASE("half-tones let their share of the light pass") {
 
 TEST_CASE("a grey line is a half-tone, an even grey is none") {
   const auto line = drawn_field(200, [](Vec2 p) { return std::abs(p.x - 0.005) < 0.005 ? 0.5 : 1.0; });
-  REQUIRE(line->has_tones());
+  REQUIRE(line->has_half_tones());
   CHECK(line->transmittance({0.005, 0.3}) == doctest::Approx(0.5));
   CHECK(line->transmittance({0.1, 0.3}) == doctest::Approx(1.0));
-  CHECK_FALSE(drawn_field(50, [](Vec2) { return 0.4; })->has_tones());
+  CHECK_FALSE(drawn_field(50, [](Vec2) { return 0.4; })->has_half_tones());
   CHECK(iris_transmittance(Iris{6}, {0.1, 0.2}) == 1.0);
   CHECK(iris_transmittance(Iris{6}, {0.9, 0.9}) == 0.0);
 }

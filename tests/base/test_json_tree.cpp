@@ -17,8 +17,8 @@ void check_json_refused(const std::string& text, const std::string& words, int l
   CAPTURE(tree.error().message);
   CHECK(tree.error().message.find(words) != std::string::npos);
   CHECK(tree.error().message.size() < 500);
-  CHECK(tree.error().place.file == "x.json");
-  CHECK(tree.error().place.line == line);
+  CHECK(tree.error().position.file == "x.json");
+  CHECK(tree.error().position.line == line);
 }
 
 TEST_CASE("a JSON tree with the line of each value") {

@@ -33,15 +33,15 @@ TEST_CASE("a result holds the value or the whole error") {
   const Result<double> bad = halve(-1);
   REQUIRE_FALSE(bad.has_value());
   CHECK(bad.error().code == ErrorCode::InvalidArgument);
-  CHECK(bad.error().place.line == 12);
-  CHECK(bad.error().place.column == 3);
+  CHECK(bad.error().position.line == 12);
+  CHECK(bad.error().position.column == 3);
   CHECK(bad.error().to_string() == "lens.toml:12: x is negative: give 0 or more");
 }
 
 TEST_CASE("errors pass through a chain of steps untouched") {
   const auto chained = halve(-1).map([](double x) { return x + 1; });
   REQUIRE_FALSE(chained.has_value());
-  CHECK(chained.error().place.file == "lens.toml");
+  CHECK(chained.error().position.file == "lens.toml");
 }
 
 TEST_CASE("degrees and radians are inverse and right at a quarter turn") {

@@ -65,17 +65,17 @@ TEST_CASE("no more threads work at once than the context allows") {
   for (const int threads : kThreadCounts) {
     CAPTURE(threads);
     std::atomic<int> working = 0;
-    std::atomic<int> most = 0;
+    std::atomic<int> largest = 0;
     parallel_for(200, with_threads(threads), [&](std::size_t) {
       const int now = ++working;
-      int seen = most.load();
-      while (now > seen && !most.compare_exchange_weak(seen, now)) {
+      int seen = largest.load();
+      while (now > seen && !largest.compare_exchange_weak(seen, now)) {
       }
       std::this_thread::sleep_for(std::chrono::microseconds(100));
       --working;
     });
-    CHECK(most >= 1);
-    CHECK(most <= threads);
+    CHECK(largest >= 1);
+    CHECK(largest <= threads);
   }
 }
 
@@ -140,16 +140,16 @@ TEST_CASE("the pipeline keeps a bounded number of products alive") {
   for (const int threads : kThreadCounts) {
     CAPTURE(threads);
     std::atomic<int> alive = 0;
-    int most = 0;
+    int largest = 0;
     ordered_pipeline(
         kItems, with_threads(threads), [&](std::size_t) { return Product(&alive); },
         [&](std::size_t, const Product&) {
-          most = std::max(most, alive.load());
+          largest = std::max(largest, alive.load());
           std::this_thread::sleep_for(std::chrono::microseconds(50));  // lets the producers run ahead
         });
     CHECK(alive == 0);
-    CHECK(most >= 1);
-    CHECK(most <= 4 * threads);  // far below kItems; the pipeline holds two for each thread
+    CHECK(largest >= 1);
+    CHECK(largest <= 4 * threads);  // far below kItems; the pipeline holds two for each thread
   }
 }
 

@@ -14,8 +14,8 @@ void check_yaml_refused(const std::string& text, const std::string& words, int l
   REQUIRE_FALSE(tree.has_value());
   CAPTURE(tree.error().message);
   CHECK(tree.error().message.find(words) != std::string::npos);
-  CHECK(tree.error().place.file == "x.yml");
-  if (line != 0) CHECK(tree.error().place.line == line);
+  CHECK(tree.error().position.file == "x.yml");
+  if (line != 0) CHECK(tree.error().position.line == line);
 }
 
 TEST_CASE("a tree with lines") {

@@ -17,7 +17,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 64;
 constexpr double kRadius = 7.0;
 
-// A disc of constant brightness about a place; pixels at its rim have the fraction that it covers.
+// A disc of constant brightness about a point; pixels at its rim have the fraction that it covers.
 Picture picture_of_disc(double x, double y) {
   Image rgb(kWidth, kHeight);
   for (int row = 0; row < kHeight; ++row) {
@@ -82,8 +82,8 @@ TEST_CASE("a disc of pixels that leaves the picture fades as its visible area do
   constexpr double kStep = 0.5;
   Outcome last = applied(picture_of_disc(kWidth - kRadius - 1.0, 20.0), lens, values);
   CHECK(last.value == doctest::Approx(whole).epsilon(0.02));
-  const double most = total(last.flare);
-  REQUIRE(most > 0.0);
+  const double largest = total(last.flare);
+  REQUIRE(largest > 0.0);
   for (double x = kWidth - kRadius - 1.0 + kStep; x < kWidth + kRadius + 1.0; x += kStep) {
     CAPTURE(x);
     const Outcome now = applied(picture_of_disc(x, 20.0), lens, values);
@@ -92,7 +92,7 @@ TEST_CASE("a disc of pixels that leaves the picture fades as its visible area do
     CHECK(std::abs(now.value - last.value) < 1.1 * strip * whole);
     CHECK(now.value < last.value + 0.005 * whole);
     // The flare moves as well, by half a pixel or less.
-    CHECK(difference(now.flare, last.flare) < 2.5 * strip * most);
+    CHECK(difference(now.flare, last.flare) < 2.5 * strip * largest);
     last = now;
   }
   CHECK(last.value == 0.0);
@@ -120,14 +120,14 @@ Picture picture_of_window() {
 TEST_CASE("a photograph's flare lowers no channel") {
   const Picture picture = picture_of_window();
   struct Case {
-    const char *lens, *most_lights;
+    const char *lens, *max_light_count;
   };
   for (const Case& c : {Case{"heliar", "16"}, Case{"heliar", "1"}, Case{"schneider-anamorphic-31", "1"}}) {
     CAPTURE(c.lens);
     const auto lens = configure_lens(find_lens(c.lens).value(), {.f_number = 8.0, .iris = {6}});
     REQUIRE(lens.has_value());
     const Values values = values_of({{"threshold", "2"},
-                                     {"max-lights", c.most_lights},
+                                     {"max-lights", c.max_light_count},
                                      {"starburst", "on"},
                                      {"glare", "0.05"},
                                      {"gain", "100"},

@@ -20,13 +20,13 @@ using namespace contrejour;
 namespace {
 
 std::vector<double> cover(int side, const std::vector<Vec2>& polygon) {
-  std::vector<double> shares(static_cast<std::size_t>(side * side));
+  std::vector<double> fractions(static_cast<std::size_t>(side * side));
   PolygonCover cover(side);
   for (int again = 0; again < 2; ++again) {  // the second call replaces the first
-    std::fill(shares.begin(), shares.end(), 0.0);
-    cover.for_each(polygon, [&](std::size_t sample, double share) { shares[sample] += share; });
+    std::fill(fractions.begin(), fractions.end(), 0.0);
+    cover.for_each(polygon, [&](std::size_t sample, double fraction) { fractions[sample] += fraction; });
   }
-  return shares;
+  return fractions;
 }
 
 // |integral over a polygon of exp(-i k.x)|^2 (Green's theorem: exact for straight edges).
@@ -97,13 +97,14 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
   for (int trial = 0; trial < 40; ++trial) {
     std::vector<Vec2> polygon{{any(random), any(random)}, {any(random), any(random)}, {any(random), any(random)}};
     if (trial % 2 == 0) std::swap(polygon[0], polygon[1]);
-    const auto shares = cover(kSide, polygon);
+    const auto fractions = cover(kSide, polygon);
     for (int row = 0; row < kSide; ++row) {
       for (int column = 0; column < kSide; ++column) {
         int inside = 0;
         for (int i = 0; i < kSub * kSub; ++i)
           inside += test::inside_polygon(polygon, {column + (i % kSub + 0.5) / kSub, row + (i / kSub + 0.5) / kSub});
-        CHECK(std::abs(shares[static_cast<std::size_t>(row * kSide + column)] - inside / double(kSub * kSub)) < 0.02);
+        CHECK(std::abs(fractions[static_cast<std::size_t>(row * kSide + column)] - inside / double(kSub * kSub)) <
+              0.02);
       }
     }
   }
@@ -111,12 +112,12 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
   const double w = 1e-3;
   const auto thin = cover(kSide, {{-3.0, -3.0}, {13.0, 13.0}, {13.0 - w, 13.0 + w}, {-3.0 - w, -3.0 + w}});
   double sum = 0.0;
-  for (const double share : thin) sum += share;
+  for (const double fraction : thin) sum += fraction;
   CHECK(sum == doctest::Approx(10.0 * 2.0 * w).epsilon(1e-3));
   // Polygons outside, without area, or with coordinates that are not numbers cover nothing.
   for (const auto& nothing : {std::vector<Vec2>{{20, 1}, {30, 1}, {25, 9}}, std::vector<Vec2>{{1, 3}, {9, 3}},
                               std::vector<Vec2>{{1, 1}, {NAN, 2}, {3, 3}}, std::vector<Vec2>{}}) {
-    for (const double share : cover(kSide, nothing)) CHECK(std::abs(share) < 1e-9);
+    for (const double fraction : cover(kSide, nothing)) CHECK(std::abs(fraction) < 1e-9);
   }
   const auto all = cover(kSide, {{-1e6, -1e6}, {1e6, -1e6}, {1e6, 1e6}, {-1e6, 1e6}});
   CHECK(*std::min_element(all.begin(), all.end()) == doctest::Approx(1.0).epsilon(1e-6));

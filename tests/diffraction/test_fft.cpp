@@ -73,7 +73,7 @@ TEST_CASE("the same bits for any number of threads; cancelling is told") {
   CHECK_FALSE(fft_2d<double>(one, {64, 48}, FftDirection::Forward, {.cancel = &stop}));
 }
 
-TEST_CASE("the chirp transform is the plain sum at the places asked for") {
+TEST_CASE("the chirp transform is the plain sum at the points asked for") {
   constexpr std::size_t kSide = 9;
   const std::vector<Complex> data = some_data(kSide * kSide);
   const RegularPoints from = centred_points(kSide, 0.1), to{5, -1.7, 0.83};

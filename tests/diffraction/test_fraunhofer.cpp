@@ -24,12 +24,12 @@ double flux_of(const FraunhoferPattern& pattern) {
 
 // The value along +x from the middle of a pattern of odd side.
 double at_radius(const FraunhoferPattern& pattern, double r_mm) {
-  const double place = r_mm / pattern.grid.pitch_mm;
-  const int k = static_cast<int>(place), middle = pattern.grid.side / 2;
+  const double position = r_mm / pattern.grid.pitch_mm;
+  const int k = static_cast<int>(position), middle = pattern.grid.side / 2;
   const auto value = [&](int i) {
     return pattern.irradiance_per_mm2[static_cast<std::size_t>(middle * pattern.grid.side + middle + i)];
   };
-  return value(k) + (place - k) * (value(k + 1) - value(k));
+  return value(k) + (position - k) * (value(k + 1) - value(k));
 }
 
 double first_minimum(const FraunhoferPattern& pattern) {
@@ -97,7 +97,7 @@ TEST_CASE("a wedge of phase moves the pattern") {
   for (int row = 0; row < mask.grid.side; ++row)
     for (int column = 0; column < mask.grid.side; ++column)  // a wave of 10 periods a mm towards +x, 5 towards +y
       mask.phase_rad[static_cast<std::size_t>(row * mask.grid.side + column)] = static_cast<float>(
-          2.0 * kPi * (10.0 * mask.grid.place_mm(column, row).x + 5.0 * mask.grid.place_mm(column, row).y));
+          2.0 * kPi * (10.0 * mask.grid.position_mm(column, row).x + 5.0 * mask.grid.position_mm(column, row).y));
   const FraunhoferPattern pattern = fraunhofer_pattern(mask, {50.0, 500.0, 1.0, {801, 1e-3}}).value();
   std::size_t brightest = 0;
   for (std::size_t k = 0; k < pattern.irradiance_per_mm2.size(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks from openings and pictures: areas, places, and refused input.
+// Masks from openings and pictures: areas, points, and refused input.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,7 +11,7 @@
 using namespace contrejour;
 
 namespace {
-double open_share(const PupilMask& mask) {  // amplitude, not power: the area of the opening
+double open_fraction(const PupilMask& mask) {  // amplitude, not power: the area of the opening
   double sum = 0.0;
   for (const float a : mask.amplitude) sum += a;
   return sum * mask.grid.pitch_mm * mask.grid.pitch_mm;
@@ -23,7 +23,7 @@ TEST_CASE("a mask's samples add up to the opening's area") {
     const IrisOpening opening(iris);
     for (const int samples : {63, 128, 511}) {
       const PupilMask mask = make_mask(grid_over(3.0, samples), opening, 3.0);
-      CHECK(open_share(mask) == doctest::Approx(9.0 * opening.area()).epsilon(2e-4));
+      CHECK(open_fraction(mask) == doctest::Approx(9.0 * opening.area()).epsilon(2e-4));
       CHECK(mask.real());
     }
   }
@@ -36,7 +36,7 @@ TEST_CASE("an edge's samples are its exact share, at any angle") {
     const PupilMask mask = make_mask(grid, [&](Vec2 p) { return dot(n, p) - 0.37; });
     for (int row = 20; row < 44; ++row) {
       for (int column = 20; column < 44; ++column) {
-        const Vec2 centre = grid.place_mm(column, row);
+        const Vec2 centre = grid.position_mm(column, row);
         int inside = 0;
         for (int i = 0; i < 10000; ++i)
           inside += dot(n, centre + Vec2{(i % 100 + 0.5) / 100 - 0.5, (i / 100 + 0.5) / 100 - 0.5}) <= 0.37;
@@ -54,8 +54,8 @@ TEST_CASE("a picture stands upright on the stop") {
   CHECK(mask.grid.side == 4);
   CHECK(mask.grid.pitch_mm == 2.0);
   CHECK(mask.amplitude[1 * 4 + 3] == 0.5F);
-  CHECK(mask.grid.place_mm(3, 1).x == 3.0);
-  CHECK(mask.grid.place_mm(3, 1).y == 1.0);
+  CHECK(mask.grid.position_mm(3, 1).x == 3.0);
+  CHECK(mask.grid.position_mm(3, 1).y == 1.0);
 }
 
 TEST_CASE("pictures that are no aperture are turned away") {

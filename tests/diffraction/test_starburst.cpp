@@ -414,12 +414,12 @@ TEST_CASE("as a light moves by tenths of a pixel no spike flickers, of blades or
 TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
   for (const Iris& iris : {Iris{}, Iris{6, 0.2, 0.3}, Iris{8, 0.1}}) {
     const Starburst starburst = make_starburst(IrisOpening(iris), sunlight(), settings_of(16.0, 0.01, 700.0)).value();
-    const StarburstSheet sheet = lay_out(starburst, 400, 300).value();
+    const StarburstImage starburst_image = lay_out(starburst, 400, 300).value();
     for (const Vec2 centre : {Vec2{200.0, 150.0}, Vec2{31.4, 288.3}, Vec2{399.7, 0.2}, Vec2{420.0, 100.0}}) {
       CAPTURE(centre.x);
       Image direct(400, 300), laid(400, 300);
       add_starburst(direct, starburst, centre, {1.0, 2.0, 3.0});
-      add_starburst(laid, sheet, centre, {1.0, 2.0, 3.0});
+      add_starburst(laid, starburst_image, centre, {1.0, 2.0, 3.0});
       const bool cut = centre.x > 390.0 && centre.x < 410.0;  // the frame's edge goes through the core
       for (int c = 0; c < 3; ++c)
         CHECK(test::sum_of_channel(laid, c) / test::sum_of_channel(direct, c) ==
@@ -448,6 +448,6 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
   CHECK_FALSE(lay_out(Starburst(), 1 << 14, 1 << 14).has_value());
   Image none(8, 8);
   add_starburst(none, lay_out(Starburst(), 8, 8).value(), {4, 4}, {1, 1, 1});
-  add_starburst(none, StarburstSheet(), {std::nan(""), 4}, {1, 1, 1});
+  add_starburst(none, StarburstImage(), {std::nan(""), 4}, {1, 1, 1});
   CHECK(none.pixels == Image(8, 8).pixels);
 }

@@ -152,7 +152,7 @@ TEST_CASE("a near light's direct flux is the solid angle that the stop fills, se
   hole.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.0, 2.0, 60.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.0, 0.0, 60.0, air(), {}, 0}};
-  LensState lens = test::place(hole, 3.0);
+  LensState lens = test::configured(hole, 3.0);
   lens.sensor_z_mm = 10.0;
   lens.focal_length_mm = 50.0;
   const GhostMeter meter(lens, kGreen_nm);

@@ -20,15 +20,15 @@ using test::kGreen_nm;
 
 namespace {
 
-// Every path by its reflections: at j, i, l, k, with at most most_crossings crossings of the stop.
-std::set<std::vector<int>> ways_by_hand(const LensState& lens, int reflections, int most_crossings) {
+// Every path by its reflections: at j, i, l, k, with at most max_crossings crossings of the stop.
+std::set<std::vector<int>> ways_by_hand(const LensState& lens, int reflections, int max_crossings) {
   const int count = static_cast<int>(lens.surfaces.size()), stop = lens.stop_index + 1;
   std::set<std::vector<int>> found;
   const auto walk = [&](auto&& self, std::vector<int> turns, int at, int direction, int crossings) -> void {
     const bool odd = turns.size() % 2 != 0;
     if (!odd && !turns.empty()) {
       const int last = crossings + (at < stop ? 1 : 0);
-      if (last <= most_crossings) found.insert(turns);
+      if (last <= max_crossings) found.insert(turns);
     }
     if (static_cast<int>(turns.size()) == reflections) return;
     int crossed = crossings;
@@ -67,7 +67,7 @@ LensSettings with_sensor(double reflectance, int orders = 0) {
 
 }  // namespace
 
-TEST_CASE("ghosts of up to four reflections are all the ways there are, in order, each once") {
+TEST_CASE("ghosts of up to four reflections are all the paths there are, in order, each once") {
   const LensState lens = bundled("tessar", {});
   for (const auto& [scope, crossings] : {std::pair{GhostScope::OneSideOfStop, 1}, std::pair{GhostScope::All, 3}}) {
     const auto ghosts = enumerate_ghosts(lens, scope, Reflections::UpToFour);
@@ -122,7 +122,7 @@ TEST_CASE("matrices of four reflections are those of rays near the axis") {
   CHECK(looked_at >= 20);
 }
 
-TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many find no room") {
+TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many do not fit") {
   const LensState bare = bundled("heliar", {.f_number = 16.0});
   const LensState covered = bundled("heliar", with_sensor(0.0));
   CHECK(covered.sensor_z_mm - bare.sensor_z_mm == doctest::Approx(2.0 / 3.0).epsilon(1e-9));
@@ -138,12 +138,13 @@ TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many find no room"
   const auto refused = configure_lens(*lens, thick);
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().message.find("the lens leaves") != std::string::npos);
-  for (const double share : {-0.1, 1.1, std::nan("")})
-    CHECK_FALSE(configure_lens(*lens, with_sensor(share)).has_value());
+  for (const double fraction : {-0.1, 1.1, std::nan("")})
+    CHECK_FALSE(configure_lens(*lens, with_sensor(fraction)).has_value());
   CHECK_FALSE(configure_lens(*lens, with_sensor(0.1, 99)).has_value());
 }
 
-TEST_CASE("light goes from the sensor to a plate and back: its share is R_sensor R (1 - R)^2, then R at the front") {
+TEST_CASE(
+    "light goes from the sensor to a plate and back: its transmittance is R_sensor R (1 - R)^2, then R at the front") {
   const LensState lens = bundled("heliar", with_sensor(0.2));
   const int sensor = static_cast<int>(lens.surfaces.size());
   REQUIRE(lens.surfaces.back().kind == SurfaceKind::Sensor);
@@ -157,13 +158,13 @@ TEST_CASE("light goes from the sensor to a plate and back: its share is R_sensor
   CHECK(0.5 * (ghost.max_mm.y - ghost.min_mm.y) == doctest::Approx(2.0 * 3.0 / 32.0).epsilon(0.03));
 }
 
-TEST_CASE("a sensor holds light within its frame only, and that beside it is not lost to the direct image") {
+TEST_CASE("a sensor holds light within its frame only, and that outside it is not lost to the direct image") {
   const LensState lens = bundled("heliar", with_sensor(0.2));
   const int sensor = static_cast<int>(lens.surfaces.size());
   const GhostMeter meter(lens, kGreen_nm);
   const LensState bare = bundled("heliar", {.f_number = 16.0});
-  const auto beyond = [&](double share) {
-    return LightSource{direction_for_image_point(bare, {0.0, share * 0.5 * lens.sensor_height_mm}, kGreen_nm)};
+  const auto beyond = [&](double fraction) {
+    return LightSource{direction_for_image_point(bare, {0.0, fraction * 0.5 * lens.sensor_height_mm}, kGreen_nm)};
   };
   CHECK(meter.measure({sensor - 1, sensor}, beyond(0.9)).flux_mm2 > 0.0);
   CHECK(meter.measure({sensor - 1, sensor}, beyond(1.1)).flux_mm2 == 0.0);
@@ -213,7 +214,7 @@ TEST_CASE("orders that leave no direction fail in both tracers") {
         0.0);
 }
 
-TEST_CASE("glass absorbs by the way through it, in both tracers alike") {
+TEST_CASE("glass absorbs by the path length in it, in both tracers alike") {
   auto dense = bundled_glasses().find("N-SF66");
   REQUIRE(dense.has_value());
   const double lambda_nm = 420.0;
@@ -230,18 +231,18 @@ TEST_CASE("glass absorbs by the way through it, in both tracers alike") {
   const RayRecord way = traced(dark);
   REQUIRE(way.ray.status == RayStatus::Ok);
   const std::size_t last = way.steps.size() - 1;
-  const double way_mm = length(way.steps[last].position_mm - way.steps[last - 1].position_mm);
-  CHECK(way_mm > 10.05);
+  const double length_mm = length(way.steps[last].position_mm - way.steps[last - 1].position_mm);
+  CHECK(length_mm > 10.05);
   CHECK(way.ray.transmission / traced(clear).ray.transmission ==
-        doctest::Approx(std::pow(per_cm, way_mm / 10.0)).epsilon(1e-9));
+        doctest::Approx(std::pow(per_cm, length_mm / 10.0)).epsilon(1e-9));
 
   const ReflectanceTables tables(dark, lambda_nm);
   const OpticalPath path = direct_path(dark, lambda_nm);
   const PacketPath packets(path, tables, {askew.origin_mm, {askew.direction}});
   for (const PacketPrecision precision : {PacketPrecision::Float, PacketPrecision::Double}) {
     const float zero = 0.0F;
-    float x = 0, y = 0, transmission = 0, r_rel = 0, stop_x = 0, stop_y = 0;
-    TracedArrays out{&x, &y, &transmission, &r_rel, {&stop_x}, {&stop_y}, nullptr, 0};
+    float x = 0, y = 0, transmission = 0, relative_height = 0, stop_x = 0, stop_y = 0;
+    TracedArrays out{&x, &y, &transmission, &relative_height, {&stop_x}, {&stop_y}, nullptr, 0};
     trace_packets(packets, precision, &zero, &zero, 1, out);
     CHECK(transmission == doctest::Approx(way.ray.transmission).epsilon(1e-4));
   }

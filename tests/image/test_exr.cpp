@@ -515,7 +515,7 @@ TEST_CASE("parts and layers by name, files without colour, damaged ones") {
   const auto rim = read_picture(folder / "in.exr", {"rim", {}});
   REQUIRE_FALSE(rim.has_value());
   CHECK(rim.error().message.find("0 depth (no colour), 1 beauty (layers diffuse), 2 deep (deep)") != std::string::npos);
-  CHECK(rim.error().place.file == (folder / "in.exr").string());
+  CHECK(rim.error().position.file == (folder / "in.exr").string());
 
   const std::vector<std::byte> whole = bytes_of(folder / "in.exr");
   for (std::size_t size = 0; size < whole.size(); size += whole.size() / 40 + 1) {
@@ -554,7 +554,7 @@ std::string error_of(const std::filesystem::path& file, const ReadOptions& optio
   const auto picture = read_picture(file, options);
   REQUIRE_FALSE(picture.has_value());
   CHECK(picture.error().code == ErrorCode::Unsupported);
-  CHECK(picture.error().place.file == file.string());
+  CHECK(picture.error().position.file == file.string());
   return picture.error().message;
 }
 

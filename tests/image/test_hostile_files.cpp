@@ -36,7 +36,7 @@ std::vector<std::byte> good_png() {
 void check_refused(const std::vector<std::byte>& bytes) {
   const Result<Picture> picture = read_picture(bytes, "bad.file");
   REQUIRE_FALSE(picture.has_value());
-  CHECK(picture.error().place.file == "bad.file");
+  CHECK(picture.error().position.file == "bad.file");
   CHECK_FALSE(picture.error().message.empty());
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("files that cannot be opened say so") {
     const auto picture = read_picture(path);
     REQUIRE_FALSE(picture.has_value());
     CHECK(picture.error().code == ErrorCode::Io);
-    CHECK(picture.error().place.file == path.string());
+    CHECK(picture.error().position.file == path.string());
   }
   if (std::filesystem::exists("/dev/zero")) {
     ReadOptions options;

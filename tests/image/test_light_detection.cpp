@@ -103,11 +103,11 @@ TEST_CASE("the tail is merged without losing flux") {
   all.max_lights = 1000;
   const Detection whole = detect_lights(image, all).value();
   REQUIRE(whole.lights.size() > 80);
-  for (const int most : {1, 2, 7, 32}) {
+  for (const int largest : {1, 2, 7, 32}) {
     DetectionSettings few = above(5);
-    few.max_lights = most;
+    few.max_lights = largest;
     const Detection merged = detect_lights(image, few).value();
-    REQUIRE(merged.lights.size() == static_cast<std::size_t>(most));
+    REQUIRE(merged.lights.size() == static_cast<std::size_t>(largest));
     CHECK(merged.areas_found == whole.areas_found);
     const Rgb sum = sum_of(merged.lights), expected = sum_of(whole.lights);
     for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(expected[c]).epsilon(1e-9));

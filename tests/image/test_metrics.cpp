@@ -110,10 +110,10 @@ TEST_CASE("quantiles are those of sorted samples, near the top and elsewhere, ti
     std::sort(finite.begin(), finite.end());
     for (const double q : {0.0, 0.3, 0.5, 0.95, 0.985, 0.99, 0.999, 0.9999, 1.0}) {
       CAPTURE(q);
-      const double place = q * static_cast<double>(finite.size() - 1);
-      const auto below = static_cast<std::size_t>(place);
+      const double position = q * static_cast<double>(finite.size() - 1);
+      const auto below = static_cast<std::size_t>(position);
       const double high = finite[std::min(below + 1, finite.size() - 1)];
-      const double expected = finite[below] + (place - static_cast<double>(below)) * (high - finite[below]);
+      const double expected = finite[below] + (position - static_cast<double>(below)) * (high - finite[below]);
       CHECK(quantile_of_samples(image, q) == expected);
     }
   }

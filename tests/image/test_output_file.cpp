@@ -91,13 +91,13 @@ TEST_CASE("permissions and symbolic links are kept") {
   CHECK(fs::status(folder / "a.txt").permissions() == (fs::perms::owner_read | fs::perms::owner_write));
 }
 
-TEST_CASE("places where no file can be are errors with the file's name") {
+TEST_CASE("positions where no file can be are errors with the file's name") {
   const ScratchFolder folder;
   for (const fs::path& path : {folder / "absent/a.txt", folder / "", fs::path("")}) {
     const auto file = OutputFile::create(path);
     REQUIRE_FALSE(file.has_value());
     CHECK(file.error().code == ErrorCode::Io);
-    CHECK(file.error().place.file == path.string());
+    CHECK(file.error().position.file == path.string());
   }
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("a link that leads to nothing yet stays, and what it leads to is writt
   fs::create_symlink("round.txt", folder / "round.txt");
   const auto round = write_text_file(folder / "round.txt", "new");
   REQUIRE_FALSE(round.has_value());
-  CHECK(round.error().place.file == (folder / "round.txt").string());
+  CHECK(round.error().position.file == (folder / "round.txt").string());
 }
 
 TEST_CASE("a killed process leaves nothing, or what the next one removes when it is old") {

@@ -33,7 +33,7 @@ void check_written(Image& image, std::size_t at, std::size_t count, const Write&
 
 }  // namespace
 
-TEST_CASE("rows are written as they are, wherever they begin and however long, and nothing beside them") {
+TEST_CASE("rows are written as they are, wherever they begin and however long, and nothing next to them") {
   Image small(64, 8), large(1920, 1080);
   for (const auto target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);

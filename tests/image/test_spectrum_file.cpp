@@ -79,7 +79,7 @@ TEST_CASE("the bundled lamps have the colours that the CIE gives them") {
   for (const BundledSpectrum& lamp : bundled_spectra()) CHECK(find_spectrum(std::string(lamp.name)).has_value());
 }
 
-TEST_CASE("a line keeps its power and place wherever it falls between whole nanometres") {
+TEST_CASE("a line keeps its power and position wherever it falls between whole nanometres") {
   for (const double line_nm : {550.0, 550.2, 550.5, 550.98}) {
     CAPTURE(line_nm);
     const Spectrum spectrum =

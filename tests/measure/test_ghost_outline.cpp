@@ -20,14 +20,14 @@ namespace {
 // The distance to the nearest of many points of the whole outline.
 double sampled_distance(const GhostOutline& outline, Vec2 point) {
   constexpr int kPoints = 20000;
-  double least = 1e30;
+  double smallest = 1e30;
   for (const OutlineCubic& cubic : {left_cubic(outline), right_cubic(outline)}) {
     for (int k = 0; k <= kPoints; ++k) {
       const Vec2 at = cubic.at(static_cast<double>(k) / kPoints);
-      least = std::min({least, length(at - point), length(Vec2{at.x, -at.y} - point)});
+      smallest = std::min({smallest, length(at - point), length(Vec2{at.x, -at.y} - point)});
     }
   }
-  return least;
+  return smallest;
 }
 
 // Whether a point is inside, by the winding of the outline's points about it.

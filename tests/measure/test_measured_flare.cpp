@@ -50,11 +50,11 @@ Image plain_picture(const MeasuredFlare& flare, const FlareLight& light, const T
 double largest(const Image& image) { return *std::max_element(image.pixels.begin(), image.pixels.end()); }
 
 double largest_difference(const Image& a, const Image& b) {
-  double most = 0.0;
+  double largest = 0.0;
   for (std::size_t k = 0; k < a.pixels.size(); ++k) {
-    most = std::max(most, std::abs(static_cast<double>(a.pixels[k]) - static_cast<double>(b.pixels[k])));
+    largest = std::max(largest, std::abs(static_cast<double>(a.pixels[k]) - static_cast<double>(b.pixels[k])));
   }
-  return most;
+  return largest;
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST_CASE("render settings of any kind are errors or render") {
     attempt([v](test::Settings& s) { s.glare = {v, v}; });
     attempt([v](test::Settings& s) { s.ghosts.gain = v; });
     attempt([v](test::Settings& s) { s.ghosts.edge_gain = v; });
-    attempt([v](test::Settings& s) { s.ghosts.scatter = v; });
+    attempt([v](test::Settings& s) { s.ghosts.jitter = v; });
     attempt([v](test::Settings& s) { s.ghosts.adjustments = {{Ghost{2, 3}, v, {v, v, v}, {v, v}}}; });
     attempt([v](test::Settings& s) { s.ghosts.ramp = {{v, {1, 1, 1}}, {v, {v, v, v}}}; });
     attempt([v](test::Settings& s) { s.selection = SelectByFlux{v}; });
@@ -162,10 +162,10 @@ TEST_CASE("lights of any kind are errors or render") {
       shape.right = {v, v};
       l.shape = std::make_shared<const LightShape>(shape);
     });
-    use(direction_beside({0.0, 0.0, 1.0}, {v, v}));
-    use(direction_beside({v, v, v}, {1.0, 1.0}));
+    use(offset_direction({0.0, 0.0, 1.0}, {v, v}));
+    use(offset_direction({v, v, v}, {1.0, 1.0}));
     use(angles_from_direction({v, v, v}));
-    use(source_beside(LightSource({0.0, 0.0, 1.0}, v), {v, v}));
+    use(offset_source(LightSource({0.0, 0.0, 1.0}, v), {v, v}));
   }
   attempt([](Light& l) { l.spectrum = TabulatedSpectrum{}; });
   attempt([](Light& l) { l.spectrum = TabulatedSpectrum{std::make_shared<const std::vector<SpectrumPoint>>()}; });
@@ -264,7 +264,7 @@ TEST_CASE("glasses, films and shapes stand any numbers") {
     use(reflectances(stack, {"", ConstantIndex{v}}, nm));
     use(reflectances(stack, {"", ConstantIndex{1.5}}, {}));
     SurfaceShape shape{
-        .conic = v, .powers = std::vector<double>(40, v), .curvature_x_per_mm = v, .conic_x = v, .turn_rad = v};
+        .conic = v, .powers = std::vector<double>(40, v), .curvature_x_per_mm = v, .conic_x = v, .rotation_rad = v};
     for (const ShapeKind kind : {ShapeKind::Revolution, ShapeKind::Toroid, ShapeKind::Biconic}) {
       shape.kind = kind;
       use(surface_at(v, shape, {v, v}));
@@ -324,7 +324,7 @@ TEST_CASE("irises and dirt stand any numbers") {
       const std::vector<IrisBound> cut = {{{v, v}, v, {v, v}, v}};
       const IrisOpening opening(iris, cut);
       use(opening.distance({v, v}));
-      use(opening.area() + opening.perimeter() + opening.reach());
+      use(opening.area() + opening.perimeter() + opening.outer_radius());
     }
     const std::vector<float> levels(12, static_cast<float>(v));
     use(IrisField::from_levels(levels, 4, 3));
@@ -333,7 +333,7 @@ TEST_CASE("irises and dirt stand any numbers") {
     dirt.dust_per_cm2 = dirt.scratches_per_cm2 = dirt.dust_mm = dirt.scratch_length_mm = v;
     use(check_dirt(dirt));
     use(dirt_within(dirt, {-1.0, -1.0}, {1.0, 1.0}));
-    dirt = {.dust_per_cm2 = 20.0, .scratch_angle_rad = v, .time = v, .drift_mm = v};
+    dirt = {.dust_per_cm2 = 20.0, .scratch_angle_rad = v, .phase = v, .drift_mm = v};
     use(check_dirt(dirt));
     use(dirt_within(dirt, {-1.0, -1.0}, {1.0, 1.0}));
     use(dirt_within({.dust_per_cm2 = 20.0}, {v, v}, {-v, -v}));

@@ -73,7 +73,7 @@ void walk_results(const LensState& lens) {
     CHECK_FALSE(render(method, lens, {}, settings).has_value());
   }
   settings.starburst.on = true;
-  settings.glare.share = 0.1;
+  settings.glare.fraction = 0.1;
   settings.ringing.mode = RingingMode::Fresnel;
   Light disc;
   disc.radius_rad = 0.01;

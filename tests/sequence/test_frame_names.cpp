@@ -47,7 +47,7 @@ TEST_CASE("the text of a range reads back as the range") {
   }
 }
 
-TEST_CASE("####, @@@@ and %04d are the same place") {
+TEST_CASE("####, @@@@ and %04d are the same point") {
   for (const char* name : {"a/plate.####.exr", "a/plate.@@@@.exr", "a/plate.%04d.exr"}) {
     CAPTURE(name);
     REQUIRE(is_frame_pattern(name));

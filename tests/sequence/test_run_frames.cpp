@@ -52,7 +52,7 @@ TEST_CASE("each stage sees every frame once, in order, with what the stage befor
 }
 
 TEST_CASE("no more frames exist at once than allowed") {
-  std::atomic<int> alive = 0, most = 0;
+  std::atomic<int> alive = 0, largest = 0;
   struct Counted {
     std::atomic<int>* alive = nullptr;
     explicit Counted(std::atomic<int>& count) : alive(&count) { ++count; }
@@ -66,12 +66,12 @@ TEST_CASE("no more frames exist at once than allowed") {
       frames_to(50), [&](int) -> Result<Counted> { return Counted(alive); },
       [&](int, Counted& in, const Context&) -> Result<Counted> {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        most = std::max(most.load(), alive.load());
+        largest = std::max(largest.load(), alive.load());
         return std::move(in);
       },
       [](int, Counted&) -> Result<void> { return {}; }, {false, 3});
   REQUIRE(failures.has_value());
-  CHECK(most <= 3);
+  CHECK(largest <= 3);
   CHECK(alive == 0);
 }
 

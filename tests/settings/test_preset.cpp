@@ -22,8 +22,8 @@ void check_refused(std::string_view toml, int line, std::string_view part) {
   CAPTURE(toml);
   const auto preset = read_preset(toml, "a.toml");
   REQUIRE(!preset.has_value());
-  CHECK(preset.error().place.file == "a.toml");
-  CHECK(preset.error().place.line == line);
+  CHECK(preset.error().position.file == "a.toml");
+  CHECK(preset.error().position.line == line);
   CHECK_MESSAGE(preset.error().message.find(part) != std::string::npos, preset.error().message);
 }
 

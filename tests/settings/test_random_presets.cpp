@@ -59,7 +59,7 @@ class RandomPreset {
   }
 
  private:
-  bool chance(double share) { return std::uniform_real_distribution<>(0.0, 1.0)(random_) < share; }
+  bool chance(double fraction) { return std::uniform_real_distribution<>(0.0, 1.0)(random_) < fraction; }
   template <class List>
   const auto& any(const List& list) {
     return list[std::uniform_int_distribution<std::size_t>(0, list.size() - 1)(random_)];

@@ -35,7 +35,7 @@ inline Prescription read_csv_lens(const std::filesystem::path& file) {
 }
 
 // Places the surfaces and puts the sensor in paraxial focus, without the checks of a user's file.
-inline LensState place(const Prescription& lens, double stop_radius_mm = 1.0) {
+inline LensState configured(const Prescription& lens, double stop_radius_mm = 1.0) {
   LensState state;
   Glass medium = air();
   double z = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests whether a place is inside a polygon, by counting crossings.
+// Tests whether a point is inside a polygon, by counting crossings.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@
 
 namespace contrejour::test {
 
-// A field from level(p) in 0..1 at the middles of a square picture's pixels, averaged over 3 x 3 places in each; p in
+// A field from level(p) in 0..1 at the middles of a square picture's pixels, averaged over 3 x 3 points in each; p in
 // stop radii.
 template <class Level>
 std::shared_ptr<const IrisField> drawn_field(int side, Level level) {

@@ -27,7 +27,7 @@ inline LensState plate() {
   lens.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.0, 2.0, 30.0, {"", ConstantIndex{1.5}}, {}, 0},
                    {SurfaceKind::Refracting, 0.0, 0.0, 30.0, air(), {}, 0}};
-  LensState state = place(lens, 3.0);
+  LensState state = configured(lens, 3.0);
   state.sensor_z_mm = 10.0;
   state.focal_length_mm = 50.0;  // arbitrary but finite: places lights outside the frame
   return state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files that `contrejour apply` writes. Each function writes into a file that the caller commits (output_file.h);
-// the format is that of the destination's extension. Errors: those of write_picture, with place.file set.
+// the format is that of the destination's extension. Errors: those of write_picture, with position.file set.
 // Thread-safety: pure functions, one file each.
 #pragma once
 

@@ -18,7 +18,7 @@ struct ClearAperture {
   ApertureKind kind = ApertureKind::Disc;  // a disc is the semi-diameter's; the other members are then unused
   Vec2 half_mm{};  // semi-axes, or half of the sides
   Vec2 centre_mm{};
-  double turn_rad = 0.0;  // of the aperture's own x axis from the surface's, towards y
+  double rotation_rad = 0.0;  // of the aperture's own x axis from the surface's, towards y
   friend bool operator==(const ClearAperture&, const ClearAperture&) = default;
 };
 
@@ -27,17 +27,18 @@ struct ClearAperture {
 struct Obscuration {
   Vec2 half_mm{};  // semi-axes of an ellipse; 0: there is none
   Vec2 centre_mm{};
-  double turn_rad = 0.0;  // as of an aperture
+  double rotation_rad = 0.0;  // as of an aperture
 
   [[nodiscard]] bool any() const { return half_mm.x > 0.0; }
   [[nodiscard]] bool has_axial_symmetry() const { return half_mm.x == half_mm.y && centre_mm == Vec2{}; }
   friend bool operator==(const Obscuration&, const Obscuration&) = default;
 };
 
-// A convex bound: the unit disc |place()| <= 1 under an affine map; for a strip, one coordinate of place() is always 0.
+// A convex bound: the unit disc |coordinates()| <= 1 under an affine map; for a strip, one coordinate of coordinates()
+// is always 0.
 struct Rim {
   Vec2 centre_mm, u_per_mm, v_per_mm;
-  [[nodiscard]] Vec2 place(Vec2 own_mm) const {
+  [[nodiscard]] Vec2 coordinates(Vec2 own_mm) const {
     const Vec2 from = own_mm - centre_mm;
     return {dot(u_per_mm, from), dot(v_per_mm, from)};
   }

@@ -30,7 +30,7 @@ class CONTREJOUR_API DirtPicture {
                                                                               int height);
 
   // Transmittance at a point in clear radii, bilinear between pixels.
-  [[nodiscard]] double transmission(Vec2 place) const;
+  [[nodiscard]] double transmission(Vec2 point) const;
   [[nodiscard]] double pixel() const { return 2.0 / static_cast<double>(longer_); }  // side of a pixel in clear radii
 
  private:
@@ -55,7 +55,7 @@ struct Dirt {
   double opacity = 1.0;  // of shapes, 0 to 1
   DirtPlane plane = DirtPlane::Stop;
   std::uint32_t seed = 0;
-  double time = 0.0;  // in periods: shapes move smoothly and are back at every whole number
+  double phase = 0.0;  // in periods: shapes move smoothly and are back at every whole number
   double drift_mm = 0.5;  // typical distance of that motion
   std::shared_ptr<const DirtPicture> picture = nullptr;  // in addition to all shapes
 
@@ -78,14 +78,14 @@ struct CONTREJOUR_API DirtStroke {
 
   [[nodiscard]] Vec2 at(double fraction) const;  // fraction of the line, -1/2 to 1/2
   [[nodiscard]] Vec2 normal_at(double fraction) const;  // unit, to the left
-  [[nodiscard]] double reach_mm() const {
+  [[nodiscard]] double outer_radius_mm() const {
     return 0.5 * (length_mm + width_mm);
   }  // upper bound of the distance from
      // the middle
-  [[nodiscard]] double distance_mm(Vec2 place_mm) const;  // from its edge, negative inside
+  [[nodiscard]] double distance_mm(Vec2 point_mm) const;  // from its edge, negative inside
   // x: arc length from the middle along its line, which continues as a circle or straight line; y: distance to the
   // left.
-  [[nodiscard]] Vec2 along_and_across_mm(Vec2 place_mm) const;
+  [[nodiscard]] Vec2 along_and_across_mm(Vec2 point_mm) const;
 };
 
 [[nodiscard]] CONTREJOUR_API Result<void> check_dirt(const Dirt& dirt);

@@ -43,7 +43,7 @@ struct GhostFirstOrder {
   std::optional<double> stop_image_mm;
   // The image point of the ghost's chief ray (through the middle of the stop at the first crossing) over that of the
   // direct image: 1 at the direct image, 0 in the middle of the picture, -1 opposite.
-  double place = 0;
+  double relative_image_height = 0;
 };
 [[nodiscard]] CONTREJOUR_API GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost,
                                                                double lambda_nm);

@@ -23,7 +23,7 @@ struct FresnelSettings {
 
 struct FresnelPattern {
   int side = 0;
-  double extent = 0.0;             // rows from the top, places as in MaskGrid of pitch 2 extent / side
+  double extent = 0.0;             // rows from the top, positions as in MaskGrid of pitch 2 extent / side
   std::vector<double> irradiance;  // empty when cancelled
   double flux = 0.0;  // flux of the pattern over the flux through the mask: 1 less what spreads beyond the
                       // extent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an artist changes about ghosts: gains, colours and places. The defaults are physically right.
+// What an artist changes about ghosts: gains, colours and positions. The defaults are physically right.
 // Gains, and colours per channel, are at least 0; 1 changes nothing. Thread-safety: plain values.
 #pragma once
 
@@ -24,7 +24,7 @@ struct GhostAdjustment {
 // (to first order, by the ray through the middle of the stop). It is linear between ramp stops and constant beyond the
 // first and the last.
 struct GhostRampStop {
-  double place = 0.0;
+  double position = 0.0;
   Rgb colour{1, 1, 1};
 };
 
@@ -32,11 +32,11 @@ struct GhostOptions {
   double gain = 1.0;  // for all ghosts
   double edge_gain = 1.0;  // factor for a light at the frame's corner; 1 at the middle, linear in the distance from it
   std::vector<GhostAdjustment> adjustments;  // gains and colours of one ghost multiply, its offsets add up
-  std::vector<GhostRampStop> ramp;  // in order of place
+  std::vector<GhostRampStop> ramp;  // in order of position
   // hullin2011 4.2, imperfect symmetry: each ghost has its own random offset, normally distributed with this root mean
   // square, in units of the frame's height.
-  double scatter = 0.0;
-  std::uint32_t scatter_seed = 0;
+  double jitter = 0.0;
+  std::uint32_t jitter_seed = 0;
 };
 
 }  // namespace contrejour

@@ -85,7 +85,7 @@ class CONTREJOUR_API IrisOpening {
       Vec2 point) const;  // faster; beyond a corner an underestimate, like iris_distance
   [[nodiscard]] double area() const;  // for a rim of radius 1: pi when wide open
   [[nodiscard]] double perimeter() const;
-  [[nodiscard]] double reach() const;  // distance of the farthest point from the axis
+  [[nodiscard]] double outer_radius() const;  // distance of the farthest point from the axis
   [[nodiscard]] const std::vector<IrisEdge>& edges() const { return edges_; }
   [[nodiscard]] bool closed() const { return edges_.empty(); }
 

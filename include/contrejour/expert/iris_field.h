@@ -22,7 +22,7 @@
 namespace contrejour {
 
 inline namespace internal {
-class IrisTones;
+class HalfTones;
 }
 
 // Part of an opening: a rectangle clipped by up to two half-planes.
@@ -46,7 +46,7 @@ class CONTREJOUR_API IrisField {
   [[nodiscard]] double distance(Vec2 p) const;
   // Integral of the transmittance over the rim's circle: pi when all is open.
   [[nodiscard]] double area() const { return area_; }
-  [[nodiscard]] bool has_tones() const { return tones_ != nullptr; }
+  [[nodiscard]] bool has_half_tones() const { return half_tones_ != nullptr; }
   // Transmittance, 0 to 1, as the mean over an upright square about p. Half-tones are bilinear between samples and
   // continue beyond the rim, also in means of squares that the rim crosses, because whoever draws clips at the rim.
   // Without half-tones: 1 where distance() <= 0 and else 0, whatever the width.
@@ -100,7 +100,7 @@ class CONTREJOUR_API IrisField {
   }
 
   double area_ = 0.0;
-  std::shared_ptr<const IrisTones> tones_;
+  std::shared_ptr<const HalfTones> half_tones_;
   int side_ = 0;  // samples of the field along a side: the picture's, and one more at each end
   std::vector<float> field_;  // [row from below * side_ + column]
   std::vector<Node> nodes_;  // the root first

@@ -21,7 +21,7 @@ struct KeyValue {
   std::string key;
   Kind kind = Kind::Text;
   std::vector<std::string> texts;  // one, or a list's; a number as short as it reads back, "true" or "false"
-  SourcePlace place = {};          // in the file it was read from
+  SourcePosition position = {};          // in the file it was read from
 };
 
 // In the file's order. page: the document that shows such a file, for errors.

@@ -34,9 +34,9 @@ struct LightSource {
   [[nodiscard]] double shared_flux() const { return is_distant() ? direction.z : 1.0; }
   [[nodiscard]] double flux_at(Vec3 point_mm) const {
     if (is_distant()) return 1.0;
-    const Vec3 way = point_mm + direction * distance_mm;
-    const double r = length(way);
-    return (distance_mm / r) * (distance_mm / r) * (way.z / r);
+    const Vec3 from_light = point_mm + direction * distance_mm;
+    const double r = length(from_light);
+    return (distance_mm / r) * (distance_mm / r) * (from_light.z / r);
   }
 
   friend bool operator==(const LightSource&, const LightSource&) = default;

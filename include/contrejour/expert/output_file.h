@@ -5,8 +5,8 @@
 // hidden files that such a process left a day ago are removed by the next one that writes the same destination. A
 // symbolic link stays, and its target is written, whether it exists or not. A destination that is not a regular file (a
 // pipe, a device) gets all bytes at once when the file is finished, so writers that seek backwards can write to a pipe.
-// Errors: Io, with the destination as place.file; after one, every later call fails too. Thread-safety: one thread at a
-// time.
+// Errors: Io, with the destination as position.file; after one, every later call fails too. Thread-safety: one thread
+// at a time.
 #pragma once
 
 #include <cstddef>

@@ -24,7 +24,7 @@ namespace contrejour::params {
                                                                      std::size_t count);  // "1,2,3"
 [[nodiscard]] CONTREJOUR_API std::vector<std::string_view> split(std::string_view text, char separator);
 
-// "auto" (FrameSettings::wavelengths' kWavelengthsByNeed) or a number of wavelengths up to 1024.
+// "auto" (FrameSettings::wavelengths' kAutoWavelengths) or a number of wavelengths up to 1024.
 [[nodiscard]] CONTREJOUR_API Result<int> parse_wavelengths(std::string_view text);
 
 struct PixelSize {

@@ -26,7 +26,7 @@ struct MaskGrid {
   double pitch_mm = 0.01;
 
   [[nodiscard]] bool is_usable() const { return side >= 1 && side <= kMaxSamples && pitch_mm > 0.0 && pitch_mm < 1e6; }
-  [[nodiscard]] Vec2 place_mm(int column, int row) const {
+  [[nodiscard]] Vec2 position_mm(int column, int row) const {
     return {(column + 0.5 - 0.5 * side) * pitch_mm, (0.5 * side - 0.5 - row) * pitch_mm};
   }
 };

@@ -99,9 +99,9 @@ struct StarburstSamples;
 // centre placed to an eighth of a pixel; from 20 pixels on, linear interpolation between samples a pixel apart: smooth
 // parts to 1 per cent (5 where the pattern's own fringes are finer than pixels), spikes narrower than pixels up to half
 // a pixel wider. The flux is the same to 1e-4.
-class StarburstSheet {
+class StarburstImage {
  public:
-  explicit StarburstSheet(std::shared_ptr<const StarburstSamples> samples = nullptr) : samples_(std::move(samples)) {}
+  explicit StarburstImage(std::shared_ptr<const StarburstSamples> samples = nullptr) : samples_(std::move(samples)) {}
   [[nodiscard]] const StarburstSamples* samples() const { return samples_.get(); }  // null: it draws nothing
 
  private:
@@ -111,10 +111,10 @@ class StarburstSheet {
 // For frames of up to width x height pixels that contain the light: 24 bytes * width * height. Beyond that distance it
 // is drawn from the starburst itself, at the starburst's speed. Errors: InvalidArgument (no pixels, more than 2^26 of
 // them), Cancelled.
-[[nodiscard]] CONTREJOUR_API Result<StarburstSheet> lay_out(const Starburst& starburst, int width, int height,
+[[nodiscard]] CONTREJOUR_API Result<StarburstImage> lay_out(const Starburst& starburst, int width, int height,
                                                             const Context& context = {});
 
-CONTREJOUR_API void add_starburst(Image& image, const StarburstSheet& sheet, Vec2 centre_px, const Rgb& flux,
+CONTREJOUR_API void add_starburst(Image& image, const StarburstImage& sheet, Vec2 centre_px, const Rgb& flux,
                                   const Context& context = {});
 
 }  // namespace contrejour

@@ -27,7 +27,7 @@ struct StarburstOptions {
 // Light that polish, dust and edges scatter around each light's own image: over angles theta as (1 + (theta /
 // width)^2)^-1.5.
 struct GlareOptions {
-  double share = 0.0;  // fraction of the light's value, 0 to 1, over an unlimited picture; 0: none
+  double fraction = 0.0;  // fraction of the light's value, 0 to 1, over an unlimited picture; 0: none
   double width_rad = 0.0175;
 };
 

@@ -29,7 +29,7 @@ struct CONTREJOUR_API SurfaceShape {
   std::vector<double> powers = {};  // [p - 1]: the coefficient of r^p or |y|^p, mm^(1 - p); none in a biconic
   double curvature_x_per_mm = 0;  // of a toroid or a biconic in the x-z section
   double conic_x = 0.0;  // of a biconic
-  double turn_rad = 0.0;  // of a toroid or a biconic: angle of its own x axis from the lens's, towards y
+  double rotation_rad = 0.0;  // of a toroid or a biconic: angle of its own x axis from the lens's, towards y
 
   static constexpr int kHighestPower = 20;
 

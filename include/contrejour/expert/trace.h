@@ -60,9 +60,9 @@ struct PathStep {
   Vec2 grating_shift;  // of a reflecting grating: added to the direction's x and y
   double efficiency = 1;  // efficiency of the order: its fraction of the reflected light
 
-  // A point is inside the rim where |rim_place| <= 1; own_mm: in the surface's own x and y from its axis.
-  [[nodiscard]] Vec2 rim_place(Vec2 own_mm) const {
-    return rim ? rim->place(own_mm) : own_mm * (1.0 / semi_diameter_mm);
+  // A point is inside the rim where |rim_point| <= 1; own_mm: in the surface's own x and y from its axis.
+  [[nodiscard]] Vec2 rim_point(Vec2 own_mm) const {
+    return rim ? rim->coordinates(own_mm) : own_mm * (1.0 / semi_diameter_mm);
   }
 };
 
@@ -84,7 +84,7 @@ struct TracedRay {
   Vec2 sensor_mm;
   Vec3 direction;
   double transmission = 0;  // product of R and T along the path
-  double r_rel = 0;  // largest distance from the axis over clear semi-diameter; > 1 is blocked
+  double relative_height = 0;  // largest distance from the axis over clear semi-diameter; > 1 is blocked
   double obscured = -1;  // largest depth of the ray within an obscuration, over its radius; > 0 is blocked
   // Stop coordinates over the stop radius at each crossing; iris_distance() of each must be <= 0.
   std::array<Vec2, kMaxStopCrossings> stop{};
@@ -101,8 +101,8 @@ struct TracedRay {
 // The same path without obscurations, so that all its bounds (rims and iris) are convex, as pupil searches require.
 [[nodiscard]] CONTREJOUR_API OpticalPath without_obscurations(const OpticalPath& path);
 
-// How far the ray passes outside all bounds: the largest of r_rel - 1, `obscured` and the iris distances; <= 0 gets
-// through.
+// How far the ray passes outside all bounds: the largest of relative_height - 1, `obscured` and the iris distances; <=
+// 0 gets through.
 [[nodiscard]] CONTREJOUR_API double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris);
 
 // A record of the ray at each surface, for `lens trace` and drawings. It stops at the step that fails.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes lenses as files of design programs: sequential Zemax (.zmx) and CODE V (.seq). Read again, they give the same
-// lens: surfaces, shapes, stop, gaps of a zoom and f-number to the last bit, tilts and turns to 1e-12, glasses' indices
-// as `losses` says. What a format cannot hold is either left out, which `losses` says for people, or an error.
+// lens: surfaces, shapes, stop, gaps of a zoom and f-number to the last bit, tilts and rotations to 1e-12, glasses'
+// indices as `losses` says. What a format cannot hold is either left out, which `losses` says for people, or an error.
 // Errors: InvalidArgument for an invalid lens (validate()); Unsupported for a shape that the format cannot express.
 // docs/formats/zemax.md, docs/formats/codev.md. Thread-safety: pure functions.
 #pragma once

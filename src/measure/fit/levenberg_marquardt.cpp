@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFirstDamping = 1e-3;  // of the Hessian's diagonal
 constexpr double kMaxDamping = 1e12;
-constexpr double kLeastDamping = 1e-12;  // keeps parameters that act alike from drifting apart
+constexpr double kMinDamping = 1e-12;  // keeps parameters that act alike from drifting apart
 
 // The step under damping of each parameter by its own diagonal entry. The equations are scaled to a diagonal of 1,
 // because units of parameters may differ by many orders of magnitude; what has no influence, or is held, stays.
@@ -19,7 +19,7 @@ Eigen::VectorXd damped_step(const NormalEquations& equations, const Eigen::Vecto
   const Eigen::VectorXd scale = is_free.cwiseProduct(
       equations.hessian.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; }));
   Eigen::MatrixXd scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
-  scaled.diagonal() = Eigen::VectorXd::Constant(scale.size(), 1.0 + damping + kLeastDamping);
+  scaled.diagonal() = Eigen::VectorXd::Constant(scale.size(), 1.0 + damping + kMinDamping);
   const Eigen::VectorXd step = scaled.ldlt().solve(-scale.cwiseProduct(equations.gradient));
   return scale.cwiseProduct(step);
 }

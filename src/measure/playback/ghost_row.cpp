@@ -20,7 +20,7 @@ using One = hn::CappedTag<float, 1>;
 constexpr int kSamples = 5;  // of each cubic
 constexpr int kNewtonSteps = 4;
 constexpr float kMaxStep = 0.2F;       // of t, which samples leave uncertain by 0.1
-constexpr float kLeastPower = 1e-20F;  // of a base whose logarithm is taken
+constexpr float kMinPower = 1e-20F;  // of a base whose logarithm is taken
 
 // One coordinate of a cubic that may differ from lane to lane.
 template <class D>
@@ -64,7 +64,7 @@ struct Nearest {
 // Newton's steps from t, with a lower bound of the curvature where the distance has none.
 template <class D>
 HWY_INLINE Nearest<D> refined(D d, const Cubic<D>& cx, const Cubic<D>& cy, hn::Vec<D> px, hn::Vec<D> py, hn::Vec<D> t) {
-  const auto max_step = hn::Set(d, kMaxStep), quarter = hn::Set(d, 0.25F), least = hn::Set(d, 1e-12F);
+  const auto max_step = hn::Set(d, kMaxStep), quarter = hn::Set(d, 0.25F), smallest = hn::Set(d, 1e-12F);
   const auto two = hn::Set(d, 2.0F), three = hn::Set(d, 3.0F), six = hn::Set(d, 6.0F);
   const auto x2 = hn::Mul(two, cx.c2), x3 = hn::Mul(three, cx.c3), y2 = hn::Mul(two, cy.c2), y3 = hn::Mul(three, cy.c3);
   const auto x6 = hn::Mul(six, cx.c3), y6 = hn::Mul(six, cy.c3);
@@ -74,7 +74,7 @@ HWY_INLINE Nearest<D> refined(D d, const Cubic<D>& cx, const Cubic<D>& cy, hn::V
     const auto slope = hn::MulAdd(x, x1, hn::Mul(y, y1));
     const auto speed = hn::MulAdd(x1, x1, hn::Mul(y1, y1));
     const auto bend = hn::MulAdd(x, hn::MulAdd(x6, t, x2), hn::Mul(y, hn::MulAdd(y6, t, y2)));
-    const auto curvature = hn::Max(hn::Add(speed, bend), hn::MulAdd(quarter, speed, least));
+    const auto curvature = hn::Max(hn::Add(speed, bend), hn::MulAdd(quarter, speed, smallest));
     const auto step = hn::Max(hn::Min(hn::Div(slope, curvature), max_step), hn::Neg(max_step));
     t = hn::Max(hn::Min(hn::Sub(t, step), hn::Set(d, 1.0F)), hn::Zero(d));
   }
@@ -117,9 +117,9 @@ HWY_INLINE hn::Vec<D> distance_at(D d, const GhostPacket& ghost, hn::Vec<D> x, h
 
 template <class D>
 HWY_INLINE hn::Vec<D> power(D d, hn::Vec<D> base, float exponent) {
-  const auto kept = hn::Max(base, hn::Set(d, kLeastPower));
+  const auto kept = hn::Max(base, hn::Set(d, kMinPower));
   const auto value = hn::Exp(d, hn::Mul(hn::Set(d, exponent), hn::Log(d, kept)));
-  return hn::IfThenElse(hn::Gt(base, hn::Set(d, kLeastPower)), value, hn::Zero(d));
+  return hn::IfThenElse(hn::Gt(base, hn::Set(d, kMinPower)), value, hn::Zero(d));
 }
 
 // The border's weight integrated from low to high on its inner side, and likewise on its outer side: differences of the

@@ -54,7 +54,7 @@ FrameSettings flare_settings(const Frame& frame, const SweepSettings& settings) 
   FrameSettings flare;
   flare.frame = frame;
   flare.starburst.on = true;
-  flare.glare.share = settings.scattered;
+  flare.glare.fraction = settings.scattered;
   return flare;
 }
 
@@ -103,7 +103,7 @@ Result<double> automatic_light_rate(const LensState& lens, const SweepSettings& 
   small.height = 2 * std::max(static_cast<int>(kSurveyScale * settings.height / 2), 32);
   FrameSettings flare = flare_settings(sweep_frame(lens, small), small);
   flare.starburst.on = false;
-  flare.glare.share = 0.0;
+  flare.glare.fraction = 0.0;
   const double scale = static_cast<double>(small.width) / settings.width;
   const double to_deg = *std::max_element(settings.angles_deg.begin(), settings.angles_deg.end());
   double brightest = 0.0;

@@ -17,10 +17,10 @@ const FilmTable* find_table(std::string_view name) {
 
 // Lagrange's cubic through the four samples nearest to a position; in the first and last intervals, through the four at
 // that end.
-double between(const std::array<double, FilmTable::kSamples>& samples, double place) {
+double between(const std::array<double, FilmTable::kSamples>& samples, double position) {
   constexpr auto kLast = static_cast<double>(FilmTable::kSamples - 1);
-  if (std::isnan(place)) return place;
-  const double within = std::clamp(place, 0.0, kLast);
+  if (std::isnan(position)) return position;
+  const double within = std::clamp(position, 0.0, kLast);
   const double first = std::clamp(std::floor(within) - 1.0, 0.0, kLast - 3.0);
   const auto s = samples.begin() + static_cast<std::ptrdiff_t>(first);
   const double t = within - first;
@@ -48,8 +48,8 @@ std::complex<double> index_at(const FilmMaterial& material, double lambda_nm) {
   if (material.name.empty()) return material.n;
   const FilmTable* const table = find_table(material.name);
   if (table == nullptr) return material.n;
-  const double place = (lambda_nm - kFilmTableFirst_nm) / kFilmTableStep_nm;
-  return {between(table->n, place), std::max(0.0, between(table->k, place))};
+  const double position = (lambda_nm - kFilmTableFirst_nm) / kFilmTableStep_nm;
+  return {between(table->n, position), std::max(0.0, between(table->k, position))};
 }
 
 }  // namespace contrejour

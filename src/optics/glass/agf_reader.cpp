@@ -167,8 +167,8 @@ GlassData data_of(Draft& draft) {
   data.formula = static_cast<DispersionFormula>(static_cast<int>(draft.formula));
   data.coefficients = std::move(draft.coefficients);
   // Files pad the line with zeros.
-  const std::size_t most = coefficient_count(data.formula).most;
-  while (data.coefficients.size() > most && data.coefficients.back() == 0.0) data.coefficients.pop_back();
+  const std::size_t max = coefficient_count(data.formula).max;
+  while (data.coefficients.size() > max && data.coefficients.back() == 0.0) data.coefficients.pop_back();
   data.range_nm = draft.range_nm;
   const auto& t = draft.thermal;
   if (t.size() >= 6) data.thermal = ThermalDispersion{t[0], t[1], t[2], t[3], t[4], t[5]};

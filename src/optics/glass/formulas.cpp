@@ -18,7 +18,7 @@ struct Entry {
 
 using enum DispersionFormula;
 constexpr std::size_t kMany = 100;  // refractiveindex.info's longest has 17
-constexpr std::size_t kTableMost = 2 * 50000;
+constexpr std::size_t kTableMax = 2 * 50000;
 // Coefficient counts as in AGF files: up to ten, of which those that a formula does not use are 0 and dropped.
 constexpr std::array kFormulas{
     Entry{Schott, "schott", {1, 6}},
@@ -45,7 +45,7 @@ constexpr std::array kFormulas{
     Entry{Rii9, "rii-9", {6, 6}},
     Entry{Cauchy, "cauchy", {1, kMany}},
     Entry{Buchdahl, "buchdahl", {2, 10}},
-    Entry{Table, "table", {2, kTableMost, false, true}},
+    Entry{Table, "table", {2, kTableMax, false, true}},
 };
 
 constexpr auto formulas_alone() {

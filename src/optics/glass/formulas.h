@@ -14,7 +14,7 @@ namespace contrejour::inline internal {
 
 // How many coefficients a formula takes.
 struct CoefficientCount {
-  std::size_t least = 0, most = 0;
+  std::size_t min = 0, max = 0;
   bool odd = false, even = false;  // required parity of the count
 };
 [[nodiscard]] CoefficientCount coefficient_count(DispersionFormula formula);

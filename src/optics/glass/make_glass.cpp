@@ -23,13 +23,13 @@ constexpr double kColdest_c = -273.15, kHottest_c = 3000.0;
 std::string count_problem(const GlassData& data) {
   const CoefficientCount count = coefficient_count(data.formula);
   const std::size_t size = data.coefficients.size();
-  if (count.most == 0) return "a formula that is not known";
-  if (size < count.least || size > count.most || (count.odd && size % 2 == 0) || (count.even && size % 2 != 0)) {
+  if (count.max == 0) return "a formula that is not known";
+  if (size < count.min || size > count.max || (count.odd && size % 2 == 0) || (count.even && size % 2 != 0)) {
     return fmt::format("{} coefficients of {}; it takes {}{} to {}", size, formula_name(data.formula),
                        count.odd    ? "an odd number from "
                        : count.even ? "pairs, from "
                                     : "",
-                       count.least, count.most);
+                       count.min, count.max);
   }
   for (const double c : data.coefficients)
     if (!within(c, -kHuge, kHuge)) return fmt::format("a coefficient is {}; check its figures", c);

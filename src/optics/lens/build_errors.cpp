@@ -54,13 +54,13 @@ void apply_build_errors(const BuildErrors& errors, std::vector<SurfaceState>& su
   std::uint32_t index = 0;
   for (const Body& body : bodies_of(surfaces)) {
     const Vec3 axis = tilted_axis(normal_pair({errors.seed, index, 0}) * errors.tilt_rms_rad);
-    const Vec2 aside = normal_pair({errors.seed, index, 1}) * errors.decentre_rms_mm;
+    const Vec2 decentre = normal_pair({errors.seed, index, 1}) * errors.decentre_rms_mm;
     ++index;
     const double middle_mm = 0.5 * (surfaces[body.first].z_mm + surfaces[body.last].z_mm);
     for (std::size_t k = body.first; k <= body.last; ++k) {
       SurfaceState& s = surfaces[k];
       if (s.kind == SurfaceKind::Stop) continue;
-      s.pose = carried({Vec3{aside.x, aside.y, 0.0}, axis}, s.z_mm - middle_mm, s.pose);
+      s.pose = carried({Vec3{decentre.x, decentre.y, 0.0}, axis}, s.z_mm - middle_mm, s.pose);
     }
   }
 }

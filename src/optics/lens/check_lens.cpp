@@ -80,7 +80,7 @@ Result<void> check_surfaces(const LensState& lens) {
 }
 
 Result<void> check_figures(const LensState& lens) {
-  const auto positive = [](double value, double most) { return value > 0.0 && value <= most; };
+  const auto positive = [](double value, double largest) { return value > 0.0 && value <= largest; };
   if (!within(lens.design_wavelength_nm, 100.0, 1e5))
     return invalid_argument(fmt::format("a design wavelength of {} nm", lens.design_wavelength_nm));
   if (!positive(lens.stop_radius_mm, kLargest_mm))

@@ -131,7 +131,8 @@ GhostFirstOrder ghost_first_order(const LensState& lens, const Ghost& ghost, dou
   // y = b u on the sensor of rays from the middle of the stop, at slopes of d u.
   const Abcd from_stop = m.to_sensor * inverse(m.to_stop.back());
   g.stop_image_mm = if_finite(-from_stop.b / from_stop.d);
-  g.place = relative_image_height(m.to_stop.front(), m.to_sensor) / relative_image_height(direct_to_stop, direct);
+  g.relative_image_height =
+      relative_image_height(m.to_stop.front(), m.to_sensor) / relative_image_height(direct_to_stop, direct);
   return g;
 }
 

@@ -52,12 +52,12 @@ ClosedIris close_iris(const Iris& iris, double round_radius_mm, double hole_radi
   }
   const double blade_radius = blade_radius_of(iris, std::numbers::pi * area_fraction);
   closed.iris.blade_radius = blade_radius;
-  double reach = IrisOpening(closed.iris).reach();
+  double outer_radius = IrisOpening(closed.iris).outer_radius();
   for (const double usual : {1.0, blade_radius}) {
-    if (std::abs(reach / usual - 1.0) < kSameRadius) reach = usual;
+    if (std::abs(outer_radius / usual - 1.0) < kSameRadius) outer_radius = usual;
   }
-  closed.iris.blade_radius = blade_radius / reach;
-  closed.stop_radius_mm = hole_radius_mm * reach;
+  closed.iris.blade_radius = blade_radius / outer_radius;
+  closed.stop_radius_mm = hole_radius_mm * outer_radius;
   return closed;
 }
 

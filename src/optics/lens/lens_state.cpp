@@ -45,7 +45,7 @@ std::vector<double> thicknesses(const Prescription& lens, std::size_t position, 
 // Places coatings on their glasses; a design is computed once for each glass.
 class CoatingPlacer {
  public:
-  Coating place(const Coating& coating, const Glass& before, const Glass& after) {
+  Coating position(const Coating& coating, const Glass& before, const Glass& after) {
     if (!std::holds_alternative<DesignedCoating>(coating.films)) return coating;
     for (const Placed& p : placed_)
       if (p.coating == coating && p.before == before && p.after == after) return p.result;
@@ -83,7 +83,7 @@ std::vector<SurfaceState> place_surfaces(const Prescription& lens, const std::ve
     const Glass after = s.kind == SurfaceKind::Stop ? medium : s.glass_after;
     const Coating& coating = coating_on(k, s, is_air(medium) != is_air(after), settings);
     out.push_back({s.kind, z, s.curvature_per_mm, s.semi_diameter_mm, medium, after,
-                   coatings.place(coating, medium, after), s.pose, s.shape, s.aperture, s.obscuration});
+                   coatings.position(coating, medium, after), s.pose, s.shape, s.aperture, s.obscuration});
     medium = after;
     z += thickness[k];
   }
@@ -277,15 +277,15 @@ std::string no_image_text(const LensState& state, double object_distance_mm) {
         "an attachment with its lens in one file",
         what, -1.0 / m.c);
   const double front_focus_mm = -m.d / m.c;  // of the first vertex, to the left positive
-  const double least_mm = std::max(0.0, front_focus_mm);
-  if (m.a > 0.0) return fmt::format("{}; focus farther away than its front focal point at {:.1f} mm", what, least_mm);
-  const double most_mm = m.a < 0.0 ? -m.b / m.a : std::numeric_limits<double>::infinity();
+  const double min_mm = std::max(0.0, front_focus_mm);
+  if (m.a > 0.0) return fmt::format("{}; focus farther away than its front focal point at {:.1f} mm", what, min_mm);
+  const double max_mm = m.a < 0.0 ? -m.b / m.a : std::numeric_limits<double>::infinity();
   const double focus_mm = -m.a / m.c;
-  if (most_mm > least_mm)
+  if (max_mm > min_mm)
     return fmt::format(
         "{}: its rear focal point is at {:.4g} mm from the last surface; only objects from {:.1f} to "
         "{:.1f} mm in front of it have one",
-        what, focus_mm, least_mm, most_mm);
+        what, focus_mm, min_mm, max_mm);
   return fmt::format(
       "{}, nor of any other: its rear focal point is at {:.4g} mm from the last surface; check its radii "
       "and thicknesses",

@@ -38,7 +38,7 @@ constexpr int kSpokes = 24;
 int spokes_of(const Surface& front, const Surface& back) {
   if (!(front.pose == SurfacePose{}) || !(back.pose == SurfacePose{})) return kSpokes;
   if (front.shape.has_axial_symmetry() && back.shape.has_axial_symmetry()) return 1;
-  return front.shape.turn_rad == 0.0 && back.shape.turn_rad == 0.0 ? kSpokes / 4 + 1 : kSpokes;
+  return front.shape.rotation_rad == 0.0 && back.shape.rotation_rad == 0.0 ? kSpokes / 4 + 1 : kSpokes;
 }
 
 // For other shapes and for tilted surfaces the smallest gap may be anywhere within the rims.

@@ -54,20 +54,20 @@ Result<void> check_sensor_stack(const SensorStack& stack) {
                   SensorStack::kMaxOrders));
 }
 
-Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens) {
+Result<void> add_sensor_stack(const SensorStack& stack, const SourcePosition& position, LensState& lens) {
   if (stack.plates.empty() && stack.reflectance == 0.0) return {};
-  double way_mm = 0.0;
+  double stack_mm = 0.0;
   for (const SensorPlate& plate : stack.plates) {
     lens.sensor_z_mm += plate.thickness_mm * (1.0 - 1.0 / refractive_index(plate.glass, lens.design_wavelength_nm));
-    way_mm += plate.thickness_mm + plate.gap_mm;
+    stack_mm += plate.thickness_mm + plate.gap_mm;
   }
   const double last_z_mm = lens.surfaces.back().z_mm;
-  double z_mm = lens.sensor_z_mm - way_mm;
+  double z_mm = lens.sensor_z_mm - stack_mm;
   if (!(z_mm >= last_z_mm)) {
     return failure(ErrorCode::InvalidArgument,
-                   fmt::format("the plates before the sensor need {:.4g} mm; the lens leaves {:.4g} mm", way_mm,
+                   fmt::format("the plates before the sensor need {:.4g} mm; the lens leaves {:.4g} mm", stack_mm,
                                lens.sensor_z_mm - last_z_mm),
-                   place);
+                   position);
   }
   const double semi_mm = wide_mm(lens);
   for (const SensorPlate& plate : stack.plates) {

@@ -10,6 +10,6 @@ namespace contrejour::inline internal {
 
 // Adds the surfaces behind a lens that is in focus without plates, and moves the sensor by the focus shift of the
 // plates (first order). Errors: not enough space between the lens and the sensor.
-[[nodiscard]] Result<void> add_sensor_stack(const SensorStack& stack, const SourcePlace& place, LensState& lens);
+[[nodiscard]] Result<void> add_sensor_stack(const SensorStack& stack, const SourcePosition& position, LensState& lens);
 
 }  // namespace contrejour::inline internal

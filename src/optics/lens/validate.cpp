@@ -30,7 +30,7 @@ constexpr double kMaxFilm_nm = 1e5;     // thicker films are glass
 constexpr double kMaxLength_mm = 1e5;
 constexpr double kMaxConic = 1e6;       // of a nearly flat surface; real ones stay below 1000
 constexpr double kMaxCurvature_per_mm = 1e6;  // no smaller clear aperture exists
-constexpr double kMaxTurn_rad = 1e3;    // beyond, angles lose digits
+constexpr double kMaxAngle_rad = 1e3;    // beyond, angles lose digits
 constexpr double kMinUpright = 0.5;   // z of a surface's axis
 constexpr double kMaxFNumber = 1000.0;
 constexpr double kMinFNumber = 0.4;  // 0.5 is the limit of an aplanat in air; patents round
@@ -292,7 +292,7 @@ std::optional<std::string> shape_problem(const Surface& surface) {
                        SurfaceShape::kHighestPower);
   }
   if (!std::all_of(shape.powers.begin(), shape.powers.end(), [](double a) { return std::isfinite(a); }) ||
-      !std::isfinite(shape.curvature_x_per_mm) || !within(shape.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
+      !std::isfinite(shape.curvature_x_per_mm) || !within(shape.rotation_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
     return "a number of the surface's shape is not finite, or too large; correct it";
   }
   if (!within(surface.curvature_per_mm, -kMaxCurvature_per_mm, kMaxCurvature_per_mm) ||
@@ -300,7 +300,7 @@ std::optional<std::string> shape_problem(const Surface& surface) {
     return fmt::format("a radius is less than {} mm; correct it", 1.0 / kMaxCurvature_per_mm);
   }
   const bool has_powers = std::any_of(shape.powers.begin(), shape.powers.end(), [](double a) { return a != 0.0; });
-  const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.turn_rad != 0.0;
+  const bool has_x = shape.curvature_x_per_mm != 0.0 || shape.rotation_rad != 0.0;
   if ((symmetric && has_x) || (shape.kind != ShapeKind::Biconic && shape.conic_x != 0.0) ||
       (shape.kind == ShapeKind::Biconic && has_powers)) {
     return "a number that a surface of this shape does not have: only a toroid and a biconic have a second radius, "
@@ -331,7 +331,7 @@ std::optional<std::string> aperture_problem(const Surface& surface) {
   if (a == ClearAperture{}) return std::nullopt;
   const bool fits = a.kind != ApertureKind::Disc && within(a.half_mm.x, 1e-6, kMaxLength_mm) &&
                     within(a.half_mm.y, 1e-6, kMaxLength_mm) && length(a.centre_mm) < surface.semi_diameter_mm &&
-                    within(a.turn_rad, -kMaxTurn_rad, kMaxTurn_rad);
+                    within(a.rotation_rad, -kMaxAngle_rad, kMaxAngle_rad);
   if (fits) return std::nullopt;
   return fmt::format(
       "a rim of half sides {} and {} mm about ({}, {}); give half sides of more than 0 about a place "
@@ -343,7 +343,7 @@ std::optional<std::string> obscuration_problem(const Surface& surface) {
   const Obscuration& o = surface.obscuration;
   if (o == Obscuration{}) return std::nullopt;
   if (!within(o.half_mm.x, 1e-6, kMaxLength_mm) || !within(o.half_mm.y, 1e-6, kMaxLength_mm) ||
-      !(length(o.centre_mm) <= surface.semi_diameter_mm) || !within(o.turn_rad, -kMaxTurn_rad, kMaxTurn_rad)) {
+      !(length(o.centre_mm) <= surface.semi_diameter_mm) || !within(o.rotation_rad, -kMaxAngle_rad, kMaxAngle_rad)) {
     return fmt::format(
         "an obscuration of half sides {} and {} mm about ({}, {}); give half sides of more than 0 about a place within "
         "semi_diameter_mm",

@@ -68,8 +68,8 @@ double largest_fitting(double high, const Fits& fits) {
 class RimFitter {
  public:
   RimFitter(Prescription& lens, const std::vector<bool>& open, double min_fraction)
-      : lens_(lens), open_(open), min_fraction_(min_fraction), told_mm_(lens.surfaces.size()) {
-    for (std::size_t k = 0; k < told_mm_.size(); ++k) told_mm_[k] = lens.surfaces[k].semi_diameter_mm;
+      : lens_(lens), open_(open), min_fraction_(min_fraction), stated_mm_(lens.surfaces.size()) {
+    for (std::size_t k = 0; k < stated_mm_.size(); ++k) stated_mm_[k] = lens.surfaces[k].semi_diameter_mm;
   }
 
   void fit() {
@@ -86,7 +86,7 @@ class RimFitter {
  private:
   void shrink(std::size_t k, double semi_mm) {
     Surface& surface = lens_.surfaces[k];
-    if (open_[k] || semi_mm >= min_fraction_ * told_mm_[k])
+    if (open_[k] || semi_mm >= min_fraction_ * stated_mm_[k])
       surface.semi_diameter_mm = std::min(surface.semi_diameter_mm, semi_mm);
   }
 
@@ -123,20 +123,20 @@ class RimFitter {
   }
 
   void warn() {
-    for (std::size_t k = 0; k < told_mm_.size(); ++k) {
+    for (std::size_t k = 0; k < stated_mm_.size(); ++k) {
       const Surface& surface = lens_.surfaces[k];
-      if (open_[k] || surface.semi_diameter_mm == told_mm_[k]) continue;
+      if (open_[k] || surface.semi_diameter_mm == stated_mm_[k]) continue;
       lens_.warnings.push_back(fmt::format(
           "surface {} (line {}): drawn to a semi-diameter of {:.6g} mm, where it would end or cross its neighbour; "
           "{:.6g} mm is used",
-          k + 1, surface.source_line, told_mm_[k], surface.semi_diameter_mm));
+          k + 1, surface.source_line, stated_mm_[k], surface.semi_diameter_mm));
     }
   }
 
   Prescription& lens_;
   const std::vector<bool>& open_;
   double min_fraction_;
-  std::vector<double> told_mm_;
+  std::vector<double> stated_mm_;
 };
 
 Result<double> widest_f_number(Prescription lens) {

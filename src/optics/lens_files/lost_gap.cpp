@@ -46,19 +46,19 @@ void warn_of_lost_gap(Prescription& lens) {
   const double own_back_mm = first_order(*state, state->design_wavelength_nm).back_focal_distance_mm;
   if (std::abs(own_back_mm - *back_mm) <= kSameFocus * *focal_mm) return;  // a lost gap would also move the focus
   std::size_t best = 0;
-  double wide_mm = 0.0, least = std::numeric_limits<double>::infinity(), second = least;
+  double wide_mm = 0.0, smallest = std::numeric_limits<double>::infinity(), second = smallest;
   for (std::size_t k = 0; k + 1 < lens.surfaces.size(); ++k) {
     if (!is_air(lens.surfaces[k].glass_after) || lens.surfaces[k + 1].kind == SurfaceKind::Stop) continue;
     const auto gap = widened(*state, static_cast<int>(k), *focal_mm);
     if (!gap || !(gap->by_mm > 0.0 && gap->by_mm <= kWidest * *focal_mm)) continue;
     const double off = std::abs(gap->back_focal_mm - *back_mm) / *focal_mm;
-    second = std::min(second, std::max(off, least));
-    if (off >= least) continue;
-    least = off;
+    second = std::min(second, std::max(off, smallest));
+    if (off >= smallest) continue;
+    smallest = off;
     best = k;
     wide_mm = lens.surfaces[k].thickness_mm + gap->by_mm;
   }
-  if (least > kSameFocus || second < kPlainly * least) return;
+  if (smallest > kSameFocus || second < kPlainly * smallest) return;
   lens.warnings.push_back(
       fmt::format("a gap of {:.4g} mm behind surface {} (line {}), where the file has {:g} mm, gives the "
                   "stated focal length and back focal distance both: was an opening left out with "

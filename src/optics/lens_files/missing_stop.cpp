@@ -17,9 +17,9 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kMinRoom = 0.02;  // of the lens's length: a narrower gap has no space for an iris
+constexpr double kMinClearance = 0.02;  // of the lens's length: a narrower gap has no space for an iris
 constexpr double kSameFocalLength = 0.2;  // relative: with a larger deviation the rows are not the whole lens
-constexpr std::array kPlaces{0.05, 0.5, 0.95};  // within a gap
+constexpr std::array kFractions{0.05, 0.5, 0.95};  // within a gap
 constexpr int kFields = 60;
 constexpr double kWidestField_rad = std::numbers::pi / 3.0;
 
@@ -79,7 +79,7 @@ Result<LensState> set_up(Prescription lens) {
 }
 
 // A possible position of the stop: a distance behind a row's vertex.
-struct Place {
+struct GapPoint {
   std::size_t row = 0;
   double behind_mm = 0;
 };
@@ -91,20 +91,20 @@ class StopFinder {
   }
 
   // None if no gap is wide enough.
-  [[nodiscard]] std::optional<Place> find() const {
+  [[nodiscard]] std::optional<GapPoint> find() const {
     double length_mm = 0.0;
     for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) length_mm += lens_.surfaces[k].thickness_mm;
-    std::optional<Place> best;
-    double least = std::numeric_limits<double>::infinity();
+    std::optional<GapPoint> best;
+    double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 1 < lens_.surfaces.size(); ++k) {
       const double gap_mm = lens_.surfaces[k].thickness_mm;
-      if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kMinRoom * length_mm)) continue;
-      for (const double fraction : kPlaces) {
-        const Place place{k, fraction * gap_mm};
-        const double misfit = misfit_of(place);
-        if (misfit < least) {
-          least = misfit;
-          best = place;
+      if (!is_air(lens_.surfaces[k].glass_after) || !(gap_mm >= kMinClearance * length_mm)) continue;
+      for (const double fraction : kFractions) {
+        const GapPoint gap_point{k, fraction * gap_mm};
+        const double misfit = misfit_of(gap_point);
+        if (misfit < smallest) {
+          smallest = misfit;
+          best = gap_point;
         }
       }
     }
@@ -112,29 +112,29 @@ class StopFinder {
   }
 
   // The radius of the beam along the axis.
-  [[nodiscard]] double beam_radius_mm(const Place& place) const {
-    const RowRays& at = rays_[place.row];
-    return pupil_radius_mm_ * std::abs(at.axial + place.behind_mm * at.axial_slope);
+  [[nodiscard]] double beam_radius_mm(const GapPoint& gap_point) const {
+    const RowRays& at = rays_[gap_point.row];
+    return pupil_radius_mm_ * std::abs(at.axial + gap_point.behind_mm * at.axial_slope);
   }
   [[nodiscard]] double pupil_radius_mm() const { return pupil_radius_mm_; }
 
  private:
   [[nodiscard]] double widest_mm() const {
-    double least_mm = std::numeric_limits<double>::infinity();
+    double min_mm = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rays_.size(); ++k) {
       const double rim_mm = lens_.surfaces[k].semi_diameter_mm;
-      if (rim_mm > 0.0 && rays_[k].axial != 0.0) least_mm = std::min(least_mm, rim_mm / std::abs(rays_[k].axial));
+      if (rim_mm > 0.0 && rays_[k].axial != 0.0) min_mm = std::min(min_mm, rim_mm / std::abs(rays_[k].axial));
     }
-    return std::isfinite(least_mm) ? least_mm : kNoRim_mm;
+    return std::isfinite(min_mm) ? min_mm : kNoRim_mm;
   }
 
   // Sum of squares of the logarithms of rims over beam radii, for the field that fits best.
-  [[nodiscard]] double misfit_of(const Place& place) const {
-    const RowRays& at = rays_[place.row];
-    const double axial = at.axial + place.behind_mm * at.axial_slope;
-    const double tilted = at.tilted + place.behind_mm * at.tilted_slope;
-    double least = std::numeric_limits<double>::infinity();
-    if (axial == 0.0) return least;
+  [[nodiscard]] double misfit_of(const GapPoint& gap_point) const {
+    const RowRays& at = rays_[gap_point.row];
+    const double axial = at.axial + gap_point.behind_mm * at.axial_slope;
+    const double tilted = at.tilted + gap_point.behind_mm * at.tilted_slope;
+    double smallest = std::numeric_limits<double>::infinity();
+    if (axial == 0.0) return smallest;
     for (int f = 1; f <= kFields; ++f) {
       const double slope = std::tan(kWidestField_rad * f / kFields);
       double sum = 0.0;
@@ -146,9 +146,9 @@ class StopFinder {
         const double off = std::log(std::max(beam_mm, kNoRim_mm) / rim_mm);
         sum += off * off;
       }
-      least = std::min(least, sum);
+      smallest = std::min(smallest, sum);
     }
-    return least;
+    return smallest;
   }
 
   const Prescription& lens_;
@@ -164,7 +164,7 @@ void insert_stop(Prescription& lens, std::size_t at, Surface stop) {
 }
 
 // An opening at either end of the gap, if there is one.
-std::optional<std::size_t> opening_beside(const Prescription& lens, std::size_t row) {
+std::optional<std::size_t> adjacent_opening(const Prescription& lens, std::size_t row) {
   if (is_opening(lens, row)) return row;
   if (is_opening(lens, row + 1)) return row + 1;
   return std::nullopt;
@@ -190,22 +190,22 @@ void make_stop(Prescription& lens, std::size_t row) {
 }
 
 // The stop moves with the surfaces in front of it: where zooming changes the gap, the part behind the stop changes.
-void put_stop(Prescription& lens, const Place& place, double radius_mm) {
-  Surface& before = lens.surfaces[place.row];
+void put_stop(Prescription& lens, const GapPoint& gap_point, double radius_mm) {
+  Surface& before = lens.surfaces[gap_point.row];
   Surface stop;
   stop.kind = SurfaceKind::Stop;
   stop.source_line = before.source_line;
   stop.glass_after = air();
   stop.semi_diameter_mm = lens.f_number > 0.0 ? 0.0 : radius_mm;
-  const double behind_mm = is_zoom_gap(lens, place.row) ? 0.0 : place.behind_mm;
+  const double behind_mm = is_zoom_gap(lens, gap_point.row) ? 0.0 : gap_point.behind_mm;
   stop.thickness_mm = before.thickness_mm - behind_mm;
   before.thickness_mm = behind_mm;
   lens.warnings.push_back(
       fmt::format("no surface is the stop; it is put {:.4g} mm behind surface {} (line {}), where "
                   "the rims of the surfaces say; {}",
-                  behind_mm, place.row + 1, before.source_line, kRemedy));
-  const int moved = static_cast<int>(place.row);
-  insert_stop(lens, place.row + 1, std::move(stop));
+                  behind_mm, gap_point.row + 1, before.source_line, kRemedy));
+  const int moved = static_cast<int>(gap_point.row);
+  insert_stop(lens, gap_point.row + 1, std::move(stop));
   for (ZoomPosition& position : lens.zoom)
     for (auto& [index, thickness_mm] : position.thickness_mm)
       if (index == moved) index = moved + 1;
@@ -239,13 +239,13 @@ Result<void> place_missing_stop(Prescription& lens) {
                     state->focal_length_mm, *stated_mm),
         {lens.file.file, lens.surfaces.front().source_line, 0});
   const StopFinder finder(lens, *state);
-  const auto place = finder.find();
-  if (!place) {
+  const auto gap_point = finder.find();
+  if (!gap_point) {
     put_stop_in_front(lens, finder.pupil_radius_mm());
-  } else if (const auto opening = opening_beside(lens, place->row)) {
+  } else if (const auto opening = adjacent_opening(lens, gap_point->row)) {
     make_stop(lens, *opening);
   } else {
-    put_stop(lens, *place, finder.beam_radius_mm(*place));
+    put_stop(lens, *gap_point, finder.beam_radius_mm(*gap_point));
   }
   return {};
 }

@@ -66,11 +66,11 @@ HWY_INLINE Packet<float> look_up(const float* table, int intervals, Packet<float
   const Packet<float>::Tag d;
   const hn::RebindToSigned<Packet<float>::Tag> di;
   const Packet<float> scale(static_cast<double>(intervals));
-  const Packet<float> place = smaller(or_zero(u > Packet<float>(0.0), u) * scale, scale);
-  const auto index = hn::Min(hn::ConvertTo(di, place.v), hn::Set(di, intervals - 1));
+  const Packet<float> position = smaller(or_zero(u > Packet<float>(0.0), u) * scale, scale);
+  const auto index = hn::Min(hn::ConvertTo(di, position.v), hn::Set(di, intervals - 1));
   const auto low = hn::GatherIndex(d, table, index);
   const auto high = hn::GatherIndex(d, table + 1, index);
-  return Packet<float>(hn::MulAdd(hn::Sub(place.v, hn::ConvertTo(d, index)), hn::Sub(high, low), low));
+  return Packet<float>(hn::MulAdd(hn::Sub(position.v, hn::ConvertTo(d, index)), hn::Sub(high, low), low));
 }
 
 #if HWY_HAVE_FLOAT64
@@ -94,11 +94,11 @@ HWY_INLINE Packet<double> look_up(const float* table, int intervals, Packet<doub
   const FloatsOfDoubles d;
   const hn::RebindToSigned<FloatsOfDoubles> di;
   const Packet<double> scale(static_cast<double>(intervals));
-  const Packet<double> place = smaller(or_zero(u > Packet<double>(0.0), u) * scale, scale);
-  const auto index = hn::Min(hn::DemoteTo(di, place.v), hn::Set(di, intervals - 1));
+  const Packet<double> position = smaller(or_zero(u > Packet<double>(0.0), u) * scale, scale);
+  const auto index = hn::Min(hn::DemoteTo(di, position.v), hn::Set(di, intervals - 1));
   const auto low = hn::GatherIndex(d, table, index);
   const auto high = hn::GatherIndex(d, table + 1, index);
-  const Packet<double> between = place - Packet<double>(hn::PromoteTo(Packet<double>::Tag(), index));
+  const Packet<double> between = position - Packet<double>(hn::PromoteTo(Packet<double>::Tag(), index));
   const Packet<double> rise(hn::PromoteTo(Packet<double>::Tag(), hn::Sub(high, low)));
   return Packet<double>(hn::PromoteTo(Packet<double>::Tag(), low)) + between * rise;
 }

@@ -72,12 +72,12 @@ HWY_INLINE Powers<T> powers_at(const ShapeConstants& s, T u) {
 // polynomial.
 template <class T>
 HWY_INLINE Level<T> revolution_level(const ShapeConstants& s, T x, T y, T z) {
-  const T c(s.curvature), q(s.quadratic), per_reach_squared(s.per_reach_squared);
+  const T c(s.curvature), q(s.quadratic), per_aperture_squared(s.per_aperture_squared);
   const T r_squared = x * x + y * y;
-  const Powers<T> p = powers_at(s, r_squared * per_reach_squared);
+  const Powers<T> p = powers_at(s, r_squared * per_aperture_squared);
   const T w = z - p.value;
   const T upwards = T(1.0) - q * w;
-  const T outwards = c + T(2.0) * per_reach_squared * p.by_u * upwards;
+  const T outwards = c + T(2.0) * per_aperture_squared * p.by_u * upwards;
   return {w - T(0.5) * (c * r_squared + q * w * w), T(0.0) - outwards * x, T(0.0) - outwards * y, upwards, T(1.0)};
 }
 
@@ -88,13 +88,13 @@ inline constexpr double kMinSquaredRoot = 1e-6;
 template <class T>
 HWY_INLINE Level<T> toroid_level(const ShapeConstants& s, T x, T y, T z) {
   const T one(1.0), half(0.5);
-  const T c(s.curvature), cx(s.curvature_x), per_reach_squared(s.per_reach_squared);
+  const T c(s.curvature), cx(s.curvature_x), per_aperture_squared(s.per_aperture_squared);
   const T y_squared = y * y;
   const T root_squared = one - c * T(s.quadratic) * y_squared;
   const T root = square_root(larger(root_squared, T(kMinSquaredRoot)));
-  const Powers<T> p = powers_at(s, y_squared * per_reach_squared);
+  const Powers<T> p = powers_at(s, y_squared * per_aperture_squared);
   const T w = c * y_squared / (one + root) + p.value;
-  const T slope = y * (c / root + T(2.0) * per_reach_squared * p.by_u);
+  const T slope = y * (c / root + T(2.0) * per_aperture_squared * p.by_u);
   return {z - half * cx * (x * x + z * z) - w + half * cx * w * w, T(0.0) - cx * x, T(0.0) - slope * (one - cx * w),
           one - cx * z, root_squared};
 }
@@ -143,9 +143,9 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
   const T b = from.dz - sx * from.x * from.dx - sy * from.y * from.dy;
   const T c = sx * from.x * from.x + sy * from.y * from.y;
   const T start_squared = b * b - a * c;
-  const T longest(s.reach_mm), most(8.0 * s.reach_mm);
+  const T longest(s.aperture_mm), farthest(8.0 * s.aperture_mm);
   T t = c / (b + direction * square_root(larger(start_squared, zero)));
-  t = larger(smaller(t, most), zero - most);
+  t = larger(smaller(t, farthest), zero - farthest);
 
   Level<T> level = level_at<kKind>(s, from.x + t * from.dx, from.y + t * from.dy, t * from.dz);
   bool there = false;
@@ -153,7 +153,7 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
     const T rises = direction * (level.gx * from.dx + level.gy * from.dy + level.gz * from.dz);
     const T step = direction * level.f / larger(rises, T(kMinCosine));
     t = t - larger(smaller(step, longest), zero - longest);
-    if constexpr (std::is_same_v<T, double>) there = std::abs(step) <= kConvergedStep * s.reach_mm;
+    if constexpr (std::is_same_v<T, double>) there = std::abs(step) <= kConvergedStep * s.aperture_mm;
     level = level_at<kKind>(s, from.x + t * from.dx, from.y + t * from.dy, t * from.dz);
   }
 
@@ -161,7 +161,7 @@ CONTREJOUR_INLINE_IF_FAST Hit<T> search(const Ray3<T>& from, const ShapeConstant
   const T cos_in = direction * per_gradient * (level.gx * from.dx + level.gy * from.dy + level.gz * from.dz);
   const T off = magnitude(level.f) * per_gradient;
   const T meets = smaller(cos_in * magnitude(cos_in), level.reaches);
-  const T misses = select(zero > start_squared, start_squared, zero - smaller(off * T(1.0 / s.reach_mm), T(1.0)));
+  const T misses = select(zero > start_squared, start_squared, zero - smaller(off * T(1.0 / s.aperture_mm), T(1.0)));
   Hit<T> hit;
   hit.cos_in_squared = select(T(limits.residual_mm) > off, meets, misses);
   hit.cos_in = larger(cos_in, zero);
@@ -183,28 +183,28 @@ HWY_INLINE Hit<T> intersect_shape(const Ray3<T>& ray, T z_vertex, const ShapeCon
   from.x = ray.x + to_plane * ray.dx;
   from.y = ray.y + to_plane * ray.dy;
   if (s.kind == ShapeKind::Revolution) return search<ShapeKind::Revolution>(from, s, direction, limits);
-  const T cosine(s.cos_turn), sine(s.sin_turn);
-  const auto turn = [&](T& x, T& y, T sin_turn) {
-    const T turned_x = cosine * x + sin_turn * y;
-    y = cosine * y - sin_turn * x;
-    x = turned_x;
+  const T cosine(s.cos_rotation), sine(s.sin_rotation);
+  const auto rotate = [&](T& x, T& y, T sin_rotation) {
+    const T rotated_x = cosine * x + sin_rotation * y;
+    y = cosine * y - sin_rotation * x;
+    x = rotated_x;
   };
-  if (s.turned) {
-    turn(from.x, from.y, sine);
-    turn(from.dx, from.dy, sine);
+  if (s.rotated) {
+    rotate(from.x, from.y, sine);
+    rotate(from.dx, from.dy, sine);
   }
   Hit<T> hit = s.kind == ShapeKind::Toroid ? search<ShapeKind::Toroid>(from, s, direction, limits)
                                            : search<ShapeKind::Biconic>(from, s, direction, limits);
-  if (s.turned) {
-    turn(hit.x, hit.y, T(0.0) - sine);
-    turn(hit.nx, hit.ny, T(0.0) - sine);
+  if (s.rotated) {
+    rotate(hit.x, hit.y, T(0.0) - sine);
+    rotate(hit.nx, hit.ny, T(0.0) - sine);
   }
   return hit;
 }
 
 // Limits for a single ray in double precision, which suffices for surfaces of any size.
 HWY_INLINE NewtonLimits exact_limits(const ShapeConstants& s) {
-  return {.steps = 50, .residual_mm = 1e-12 * (s.reach_mm > 1.0 ? s.reach_mm : 1.0)};
+  return {.steps = 50, .residual_mm = 1e-12 * (s.aperture_mm > 1.0 ? s.aperture_mm : 1.0)};
 }
 
 // The smallest rotation that takes n to +z, and its inverse.
@@ -217,7 +217,7 @@ HWY_INLINE void rotate_to_surface_frame(const Axis3<T>& n, T& x, T& y, T& z) {
   z = height;
 }
 template <class T>
-HWY_INLINE void turn_back(const Axis3<T>& n, T& x, T& y, T& z) {
+HWY_INLINE void rotate_back(const Axis3<T>& n, T& x, T& y, T& z) {
   const T across = n.x * x + n.y * y;
   const T factor = z - across / (T(1.0) + n.z);
   x = x + n.x * factor;

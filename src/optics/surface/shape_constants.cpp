@@ -10,7 +10,7 @@ namespace {
 void set_powers(ShapeConstants& constants, const std::vector<double>& powers) {
   double scale = 1.0;
   for (std::size_t k = 0; k < std::min<std::size_t>(powers.size(), SurfaceShape::kHighestPower); ++k) {
-    scale *= constants.reach_mm;
+    scale *= constants.aperture_mm;
     if (powers[k] == 0.0) continue;
     const bool is_even = k % 2 == 1;
     const auto term = k / 2;
@@ -21,11 +21,11 @@ void set_powers(ShapeConstants& constants, const std::vector<double>& powers) {
 
 }  // namespace
 
-ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shape, double reach_mm) {
+ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shape, double aperture_mm) {
   ShapeConstants s;
   s.kind = shape.kind;
-  s.reach_mm = reach_mm;
-  s.per_reach_squared = 1.0 / (reach_mm * reach_mm);
+  s.aperture_mm = aperture_mm;
+  s.per_aperture_squared = 1.0 / (aperture_mm * aperture_mm);
   s.curvature = curvature_per_mm;
   s.quadratic = (1.0 + shape.conic) * curvature_per_mm;
   set_powers(s, shape.powers);
@@ -41,9 +41,9 @@ ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shap
   s.quadratic_x = (1.0 + (shape.kind == ShapeKind::Biconic ? shape.conic_x : 0.0)) * shape.curvature_x_per_mm;
   s.start_x = s.curvature_x;
   if (std::abs(s.start_x) > std::abs(s.start_y)) s.start_z = s.quadratic_x;
-  s.turned = shape.turn_rad != 0.0;
-  s.cos_turn = std::cos(shape.turn_rad);
-  s.sin_turn = std::sin(shape.turn_rad);
+  s.rotated = shape.rotation_rad != 0.0;
+  s.cos_rotation = std::cos(shape.rotation_rad);
+  s.sin_rotation = std::sin(shape.rotation_rad);
   return s;
 }
 

@@ -18,21 +18,21 @@ struct ShapeConstants {
   int even_terms = 0, odd_terms = 0;
   std::array<double, kTerms> even{};  // of u^(k + 1), u = (r / reach)^2, mm
   std::array<double, kTerms> odd{};  // of u^(k + 1/2)
-  double reach_mm = 1;
-  double per_reach_squared = 1;
-  bool turned = false;
-  double cos_turn = 1, sin_turn = 0;
+  double aperture_mm = 1;
+  double per_aperture_squared = 1;
+  bool rotated = false;
+  double cos_rotation = 1, sin_rotation = 0;
   // start_x x^2 + start_y y^2 + start_z z^2 = 2 z: the surface itself where it is a conic or a circular cylinder.
   double start_x = 0, start_y = 0, start_z = 0;
 
   // As vertex_curvature() of contrejour/expert/surface_shape.h.
   [[nodiscard]] double vertex_curvature(Section section) const {
-    const double across = section == Section::Y ? cos_turn : sin_turn;
+    const double across = section == Section::Y ? cos_rotation : sin_rotation;
     return kind == ShapeKind::Revolution ? start_y : start_y * across * across + start_x * (1.0 - across * across);
   }
 };
 
-// reach_mm: the radius of the part of the surface that matters.
-[[nodiscard]] ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shape, double reach_mm);
+// aperture_mm: the radius of the part of the surface that matters.
+[[nodiscard]] ShapeConstants shape_constants(double curvature_per_mm, const SurfaceShape& shape, double aperture_mm);
 
 }  // namespace contrejour::inline internal

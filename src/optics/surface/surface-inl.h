@@ -27,12 +27,12 @@ struct Ray3 {
   T dx, dy, dz;  // unit
 };
 
-// Changes the direction of a ray of a light at a finite distance to that of a ray displaced by (aside_x, aside_y), in
+// Changes the direction of a ray of a light at a finite distance to that of a ray displaced by (offset_x, offset_y), in
 // units of the first ray's distance from the light. Returns the first ray's distance over the other's.
 template <class T>
-HWY_INLINE T perturb_direction(Ray3<T>& ray, T aside_x, T aside_y) {
-  ray.dx = ray.dx + aside_x;
-  ray.dy = ray.dy + aside_y;
+HWY_INLINE T perturb_direction(Ray3<T>& ray, T offset_x, T offset_y) {
+  ray.dx = ray.dx + offset_x;
+  ray.dy = ray.dy + offset_y;
   const T ratio = T(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
   ray.dx = ray.dx * ratio;
   ray.dy = ray.dy * ratio;
@@ -43,9 +43,9 @@ HWY_INLINE T perturb_direction(Ray3<T>& ray, T aside_x, T aside_y) {
 // The intersection of a ray with a surface, whose own z axis points to +z.
 template <class T>
 struct Hit {
-  T x, y, sag;            // mm; sag from the vertex plane
-  T nx, ny, nz;           // unit normal, nz > 0 on the near half of the sphere
-  T cos_in_squared;       // of the angle of incidence; negative: the ray misses
+  T x, y, sag;  // mm; sag from the vertex plane
+  T nx, ny, nz;  // unit normal, nz > 0 on the near half of the sphere
+  T cos_in_squared;  // of the angle of incidence; negative: the ray misses
   T cos_in;
 };
 

@@ -75,7 +75,7 @@ bool SurfaceShape::is_sphere() const {
 
 std::optional<SurfacePoint> surface_at(double curvature_per_mm, const SurfaceShape& shape, Vec2 at_mm) {
   if (shape.kind == ShapeKind::Revolution) return revolution_at(curvature_per_mm, shape, at_mm);
-  const double c = std::cos(shape.turn_rad), s = std::sin(shape.turn_rad);
+  const double c = std::cos(shape.rotation_rad), s = std::sin(shape.rotation_rad);
   const Vec2 own{c * at_mm.x + s * at_mm.y, c * at_mm.y - s * at_mm.x};
   auto point = shape.kind == ShapeKind::Toroid ? toroid_at(curvature_per_mm, shape, own)
                                                : biconic_at(curvature_per_mm, shape, own);
@@ -89,7 +89,7 @@ std::optional<SagRange> sag_range(double curvature_per_mm, const SurfaceShape& s
   std::optional<SagRange> range;
   const int spokes = shape.has_axial_symmetry() ? 1 : kSpokes;
   for (int spoke = 0; spoke < spokes; ++spoke) {
-    const double angle = shape.turn_rad + 2.0 * std::numbers::pi * spoke / spokes;
+    const double angle = shape.rotation_rad + 2.0 * std::numbers::pi * spoke / spokes;
     const Vec2 at = Vec2{std::cos(angle), std::sin(angle)} * (radius_mm * (1.0 - kRounding));
     const auto point = surface_at(curvature_per_mm, shape, at);
     if (!point || !std::isfinite(point->sag_mm)) return std::nullopt;
@@ -102,7 +102,7 @@ std::optional<SagRange> sag_range(double curvature_per_mm, const SurfaceShape& s
 double vertex_curvature(double curvature_per_mm, const SurfaceShape& shape, Section section) {
   const double of_profile = shape.powers.size() < 2 ? curvature_per_mm : curvature_per_mm + 2.0 * shape.powers[1];
   if (shape.has_axial_symmetry()) return of_profile;
-  const double c = std::cos(shape.turn_rad), s = std::sin(shape.turn_rad);
+  const double c = std::cos(shape.rotation_rad), s = std::sin(shape.rotation_rad);
   const double across = section == Section::Y ? c : s;  // the section's direction along the shape's own y axis
   return of_profile * across * across + shape.curvature_x_per_mm * (1.0 - across * across);
 }

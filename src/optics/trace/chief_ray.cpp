@@ -48,12 +48,12 @@ class Meridian {
     double height_mm = guess.height_mm, per_mm = guess.per_mm;
     TracedRay ray = at(field_rad, height_mm);
     for (int k = 0; k < kAimSteps && ray.status == RayStatus::Ok; ++k) {
-      const double place = ray.stop[0].y;
-      if (per_mm != 0.0 && std::abs(place) < kAimed) return Chief{height_mm, ray.sensor_mm.y, per_mm};
-      const double step_mm = per_mm != 0.0 ? -place / per_mm : kFirstStep_mm;
+      const double height = ray.stop[0].y;
+      if (per_mm != 0.0 && std::abs(height) < kAimed) return Chief{height_mm, ray.sensor_mm.y, per_mm};
+      const double step_mm = per_mm != 0.0 ? -height / per_mm : kFirstStep_mm;
       height_mm += step_mm;
       ray = at(field_rad, height_mm);
-      per_mm = (ray.stop[0].y - place) / step_mm;
+      per_mm = (ray.stop[0].y - height) / step_mm;
     }
     return std::nullopt;
   }

@@ -37,7 +37,7 @@ HWY_INLINE void test(Clearance<P>& s, P must_be_positive) {
 }
 
 template <class P>
-HWY_INLINE void turn_by_grating(Clearance<P>& s, const PacketStep& step) {
+HWY_INLINE void deflect_by_grating(Clearance<P>& s, const PacketStep& step) {
   const P zero(0.0);
   s.ray.dx = s.ray.dx + P(step.grating_shift.x);
   s.ray.dy = s.ray.dy + P(step.grating_shift.y);
@@ -58,9 +58,9 @@ CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) 
   P rim_x, rim_y;
   if constexpr (kGeometry == PathGeometry::General) {
     if (step.blocks_within) return;
-    const auto place = rim_place(own, step.rim);
-    rim_x = place.x;
-    rim_y = place.y;
+    const auto point = rim_point(own, step.rim);
+    rim_x = point.x;
+    rim_y = point.y;
   } else {
     const P per_mm(step.inverse_semi_diameter_per_mm);
     rim_x = own.x * per_mm;
@@ -74,7 +74,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(Clearance<P>& s, const PacketStep& step) 
   if (step.event == PathEvent::Reflect) {
     hk::reflect(s.ray, hit, direction);
     if constexpr (kGeometry == PathGeometry::General) {
-      if (step.efficiency != 1.0) turn_by_grating(s, step);
+      if (step.efficiency != 1.0) deflect_by_grating(s, step);
     }
     return;
   }
@@ -94,7 +94,7 @@ HWY_INLINE Clearance<P> enter(const PacketStart& start, const float* x_mm, const
                  P(0.0),
                  P(0.0),
                  P(0.0)};
-  if (start.diverges) hk::perturb_direction(s.ray, x * P(start.per_way_mm), y * P(start.per_way_mm));
+  if (start.diverges) hk::perturb_direction(s.ray, x * P(start.per_distance_mm), y * P(start.per_distance_mm));
   return s;
 }
 

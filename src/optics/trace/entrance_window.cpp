@@ -100,12 +100,12 @@ EntranceWindow entrance_window(const LensState& lens, const LightSource& source)
                        std::max(window.max_mm.y, ring.centre.y + ring.radius)};
     }
   }
-  double reach = rim;
+  double extent = rim;
   if (!source.is_distant()) {
     const Vec2 half = (window.max_mm - window.min_mm) * 0.5;
-    reach = std::max({rim, half.x, half.y});
+    extent = std::max({rim, half.x, half.y});
   }
-  double spare_mm = kMargin * reach;
+  double spare_mm = kMargin * extent;
   // A displaced cap shifts the shadow sideways by its decentre, and by the slope of the light times its displacement
   // forwards; the slope is estimated from the window's size.
   if (!first.is_centred()) {

@@ -51,11 +51,11 @@ PacketPath::PacketPath(const LensSteps& from, const Ghost& ghost, const LightRay
         before_mm = at.vertex_mm;
       },
       [&](int surface, std::array<int, 2> order) {
-        const auto turn = grating_turn(from.lens(), surface, order, from.tables().lambda_nm());
-        if (!turn) return;
-        steps_.back().grating_shift = turn->grating_shift;
-        steps_.back().efficiency = turn->efficiency;
-        if (turn->efficiency != 1.0) geometry_ = PathGeometry::General;
+        const auto deflection = grating_deflection(from.lens(), surface, order, from.tables().lambda_nm());
+        if (!deflection) return;
+        steps_.back().grating_shift = deflection->grating_shift;
+        steps_.back().efficiency = deflection->efficiency;
+        if (deflection->efficiency != 1.0) geometry_ = PathGeometry::General;
       });
   sensor_gap_mm_ = from.lens().sensor_z_mm - before_mm.z;
   sensor_offset_mm_ = {-before_mm.x, -before_mm.y};

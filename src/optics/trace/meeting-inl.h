@@ -29,13 +29,13 @@ inline constexpr kernels::HWY_NAMESPACE::NewtonLimits kPacketLimits<kernels::HWY
 #endif
 
 template <class P>
-struct RimPlace {
+struct RimPoint {
   P x, y;
 };
 
-// As Rim::place().
+// As Rim::coordinates().
 template <class P>
-HWY_INLINE RimPlace<P> rim_place(const kernels::HWY_NAMESPACE::SurfaceFramePoint<P>& own, const Rim& rim) {
+HWY_INLINE RimPoint<P> rim_point(const kernels::HWY_NAMESPACE::SurfaceFramePoint<P>& own, const Rim& rim) {
   const P x = own.x - P(rim.centre_mm.x), y = own.y - P(rim.centre_mm.y);
   return {P(rim.u_per_mm.x) * x + P(rim.u_per_mm.y) * y, P(rim.v_per_mm.x) * x + P(rim.v_per_mm.y) * y};
 }
@@ -75,8 +75,8 @@ HWY_INLINE kernels::HWY_NAMESPACE::Hit<P> meet(kernels::HWY_NAMESPACE::Ray3<P>& 
       own.x = hit.x;
       own.y = hit.y;
       own.nz = hit.nz;
-      hk::turn_back(axis, hit.x, hit.y, hit.sag);
-      hk::turn_back(axis, hit.nx, hit.ny, hit.nz);
+      hk::rotate_back(axis, hit.x, hit.y, hit.sag);
+      hk::rotate_back(axis, hit.nx, hit.ny, hit.nz);
     } else {
       hit = hk::intersect_tilted(ray, axis, c, direction);
       own = hk::surface_frame_point(hit, axis, c);

@@ -48,17 +48,17 @@ ReflectanceTables::ReflectanceTables(const LensState& lens, double lambda_nm) : 
 // Reuses the entry of an earlier surface with the same reflectance, or makes one.
 ReflectanceTables::Entry ReflectanceTables::entry_of(const SurfaceState& surface, const LensState& lens) {
   const bool absorbs = may_absorb(surface.coating);
-  const bool same_both_ways = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
+  const bool same_both_directions = !absorbs && !std::holds_alternative<HullinFresnelAR>(surface.coating.films);
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const SurfaceState& other = lens.surfaces[k];
     if (other.kind == SurfaceKind::Stop || !(other.coating == surface.coating)) continue;
     if ((other.before == surface.before && other.after == surface.after) ||
-        (same_both_ways && other.before == surface.after && other.after == surface.before))
+        (same_both_directions && other.before == surface.after && other.after == surface.before))
       return entries_[k];
   }
   Entry entry;
   entry.reflectance[0] = add(surface, +1, false);
-  entry.reflectance[1] = same_both_ways ? entry.reflectance[0] : add(surface, -1, false);
+  entry.reflectance[1] = same_both_directions ? entry.reflectance[0] : add(surface, -1, false);
   if (absorbs) entry.transmittance = add(surface, +1, true);
   return entry;
 }
@@ -141,7 +141,7 @@ void PacketPath::start_from(Vec2 origin_mm) {
   start_ = {origin, source_.direction_at(origin)};
   if (source_.is_distant()) return;
   start_.diverges = true;
-  start_.per_way_mm = 1.0 / length(origin + source_.direction * source_.distance_mm);
+  start_.per_distance_mm = 1.0 / length(origin + source_.direction * source_.distance_mm);
   start_.flux = source_.flux_at(origin);
 }
 

@@ -29,7 +29,7 @@ template <class P>
 struct PacketState {
   hk::Ray3<P> ray;
   P transmission;
-  P r_rel_squared;
+  P relative_height_squared;
   P alive;  // 1 or 0
 };
 
@@ -45,13 +45,13 @@ HWY_INLINE void pass_stop(PacketState<P>& s, const PacketStep& step, double inve
 // preceding step's coordinates.
 template <class P>
 HWY_INLINE void absorb(PacketState<P>& s, const PacketStep& step, P from_z) {
-  const P way = (s.ray.z + P(step.gap_mm) - from_z) / s.ray.dz;
-  s.transmission = s.transmission * exponential(way * P(-step.absorption_per_mm));
+  const P distance = (s.ray.z + P(step.gap_mm) - from_z) / s.ray.dz;
+  s.transmission = s.transmission * exponential(distance * P(-step.absorption_per_mm));
 }
 
 // As in trace.cpp.
 template <class P>
-HWY_INLINE void turn_by_grating(PacketState<P>& s, const PacketStep& step) {
+HWY_INLINE void deflect_by_grating(PacketState<P>& s, const PacketStep& step) {
   const P zero(0.0);
   s.transmission = s.transmission * P(step.efficiency);
   s.ray.dx = s.ray.dx + P(step.grating_shift.x);
@@ -80,8 +80,8 @@ CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step
 
   P r_squared;
   if constexpr (kGeometry == PathGeometry::General) {
-    const auto place = rim_place(own, step.rim);
-    r_squared = place.x * place.x + place.y * place.y;
+    const auto point = rim_point(own, step.rim);
+    r_squared = point.x * point.x + point.y * point.y;
   } else {
     r_squared = (own.x * own.x + own.y * own.y) * P(step.inverse_semi_diameter_squared);
   }
@@ -95,7 +95,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step
       height_squared = larger(height * height, beyond);
     }
   }
-  s.r_rel_squared = larger(s.r_rel_squared, height_squared);
+  s.relative_height_squared = larger(s.relative_height_squared, height_squared);
   if (rim_squared != nullptr) store_floats(out_squared, rim_squared);
 
   const P eta(step.eta);
@@ -106,7 +106,7 @@ CONTREJOUR_INLINE_IF_FAST void advance(PacketState<P>& s, const PacketStep& step
     s.transmission = s.transmission * look_up(tables + step.reflectance, ReflectanceTables::kIntervals, u);
     hk::reflect(s.ray, hit, direction);
     if constexpr (kGeometry == PathGeometry::General) {
-      if (step.efficiency != 1.0) turn_by_grating(s, step);
+      if (step.efficiency != 1.0) deflect_by_grating(s, step);
     }
     return;
   }
@@ -133,7 +133,8 @@ HWY_INLINE void land(const PacketState<P>& s, const PacketPath& path, std::size_
   store_floats(or_zero(ok, x), out.sensor_x_mm + at);
   store_floats(or_zero(ok, y), out.sensor_y_mm + at);
   store_floats(or_zero(ok, s.transmission), out.transmission + at);
-  store_floats(select(ok, square_root(s.r_rel_squared), P(std::numeric_limits<double>::infinity())), out.r_rel + at);
+  store_floats(select(ok, square_root(s.relative_height_squared), P(std::numeric_limits<double>::infinity())),
+               out.relative_height + at);
 }
 
 template <class P>
@@ -145,11 +146,11 @@ HWY_INLINE PacketState<P> enter(const PacketStart& start, const float* x_mm, con
            P(start.direction.x),     P(start.direction.y),     P(start.direction.z)};
   s.transmission = P(1.0);
   if (start.diverges) {
-    const P per_way(start.per_way_mm);
-    const P ratio = hk::perturb_direction(s.ray, x * per_way, y * per_way);
+    const P per_distance(start.per_distance_mm);
+    const P ratio = hk::perturb_direction(s.ray, x * per_distance, y * per_distance);
     s.transmission = P(start.flux) * ratio * ratio * ratio;
   }
-  s.r_rel_squared = P(0.0);
+  s.relative_height_squared = P(0.0);
   s.alive = P(1.0);
   return s;
 }
@@ -196,7 +197,7 @@ void trace_tail(const PacketPath& path, const float* x_mm, const float* y_mm, st
   std::copy_n(part.sensor_x_mm, count, out.sensor_x_mm);
   std::copy_n(part.sensor_y_mm, count, out.sensor_y_mm);
   std::copy_n(part.transmission, count, out.transmission);
-  std::copy_n(part.r_rel, count, out.r_rel);
+  std::copy_n(part.relative_height, count, out.relative_height);
   for (std::size_t c = 0; c < static_cast<std::size_t>(path.stop_crossings()); ++c) {
     std::copy_n(part.stop_x[c], count, out.stop_x[c]);
     std::copy_n(part.stop_y[c], count, out.stop_y[c]);
@@ -208,7 +209,7 @@ TracedArrays advanced(const TracedArrays& arrays, std::size_t by, int crossings)
   out.sensor_x_mm += by;
   out.sensor_y_mm += by;
   out.transmission += by;
-  out.r_rel += by;
+  out.relative_height += by;
   if (out.rim_squared != nullptr) out.rim_squared += by;
   for (std::size_t c = 0; c < static_cast<std::size_t>(crossings); ++c) {
     out.stop_x[c] += by;

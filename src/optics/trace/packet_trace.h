@@ -87,7 +87,7 @@ struct PacketStart {
   Vec3 origin_mm;
   Vec3 direction;
   bool diverges = false;
-  double per_way_mm = 0;  // 1 over the distance from the light to the origin
+  double per_distance_mm = 0;  // 1 over the distance from the light to the origin
   double flux = 1;        // LightSource::flux_at; another ray's is this times (origin's distance over its own)^3
 };
 
@@ -129,18 +129,18 @@ class PacketPath {
 inline constexpr float kFailed = std::numeric_limits<float>::infinity();  // relative height of a ray that fails
 
 // Output arrays. For a light at a finite distance transmissions include LightSource::flux_at. A ray that fails has
-// r_rel = kFailed, transmission 0 and an undefined sensor point. A point at p radii from an obscuration's centre counts
-// as the relative height 2 - p: above 1 where it blocks, and as smooth as a rim's.
+// relative_height = kFailed, transmission 0 and an undefined sensor point. A point at p radii from an obscuration's
+// centre counts as the relative height 2 - p: above 1 where it blocks, and as smooth as a rim's.
 struct TracedArrays {
   float* sensor_x_mm = nullptr;
   float* sensor_y_mm = nullptr;
   float* transmission = nullptr;
-  float* r_rel = nullptr;
+  float* relative_height = nullptr;
   std::array<float*, kMaxStopCrossings> stop_x{};  // one array a stop crossing
   std::array<float*, kMaxStopCrossings> stop_y{};
   // Optional: at step k of the path, the squared distance from the axis over the clear semi-diameter, at [k *
   // rim_stride + ray]; 4 beyond a sphere's equator; 2 - p^2 for an obscuration; not written at the stop. It is smooth
-  // where r_rel has creases.
+  // where relative_height has creases.
   float* rim_squared = nullptr;
   std::size_t rim_stride = 0;
 };

@@ -92,14 +92,14 @@ void add_steps(OpticalPath& path, const LensState& lens, int surface, int direct
   if (path.steps.back().event == PathEvent::Stop) ++path.stop_crossings;
 }
 
-std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std::array<int, 2> order,
-                                        double lambda_nm) {
+std::optional<GratingDeflection> grating_deflection(const LensState& lens, int surface, std::array<int, 2> order,
+                                                    double lambda_nm) {
   const SensorGrating& grating = lens.sensor_grating;
   if (grating.orders == 0 || lens.surfaces[static_cast<std::size_t>(surface)].kind != SurfaceKind::Sensor)
     return std::nullopt;
   const double per_order = lambda_nm * 1e-6 / grating.pitch_mm;
-  return GratingTurn{{order[0] * per_order, order[1] * per_order},
-                     order_efficiency(order[0], grating.fill) * order_efficiency(order[1], grating.fill)};
+  return GratingDeflection{{order[0] * per_order, order[1] * per_order},
+                           order_efficiency(order[0], grating.fill) * order_efficiency(order[1], grating.fill)};
 }
 
 }  // namespace contrejour::inline internal
@@ -121,10 +121,10 @@ OpticalPath ghost_path(const LensState& lens, Ghost ghost, double lambda_nm) {
       lens, ghost,
       [&](int surface, int direction, PathEvent event) { add_steps(path, lens, surface, direction, event); },
       [&](int surface, std::array<int, 2> order) {
-        const auto turn = grating_turn(lens, surface, order, lambda_nm);
-        if (!turn) return;
-        path.steps.back().grating_shift = turn->grating_shift;
-        path.steps.back().efficiency = turn->efficiency;
+        const auto deflection = grating_deflection(lens, surface, order, lambda_nm);
+        if (!deflection) return;
+        path.steps.back().grating_shift = deflection->grating_shift;
+        path.steps.back().efficiency = deflection->efficiency;
       });
   return path;
 }

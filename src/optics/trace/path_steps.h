@@ -14,22 +14,22 @@ namespace contrejour::inline internal {
 void add_steps(OpticalPath& path, const LensState& lens, int surface, int direction, PathEvent event);
 
 // The effect of a sensor's grating on light reflected into one order (PathStep); the default is no grating.
-struct GratingTurn {
+struct GratingDeflection {
   Vec2 grating_shift;
   double efficiency = 1;
 };
-[[nodiscard]] std::optional<GratingTurn> grating_turn(const LensState& lens, int surface, std::array<int, 2> order,
-                                                      double lambda_nm);
+[[nodiscard]] std::optional<GratingDeflection> grating_deflection(const LensState& lens, int surface,
+                                                                  std::array<int, 2> order, double lambda_nm);
 
-// Follows a ghost's path: calls `visit(surface, direction, event)` at every surface in order, and then `turn(surface,
-// order)` where light that travels forward is reflected.
-template <class Visit, class Turn>
-void walk_ghost(const LensState& lens, const Ghost& ghost, const Visit& visit, const Turn& turn) {
+// Follows a ghost's path: calls `visit(surface, direction, event)` at every surface in order, and then
+// `deflect(surface, order)` where light that travels forward is reflected.
+template <class Visit, class Deflect>
+void walk_ghost(const LensState& lens, const Ghost& ghost, const Visit& visit, const Deflect& deflection) {
   walk_surfaces(
       lens, ghost, [&](int surface, int direction) { visit(surface, direction, PathEvent::Refract); },
       [&](int surface, int direction, std::array<int, 2> order) {
         visit(surface, direction, PathEvent::Reflect);
-        if (direction > 0) turn(surface, order);
+        if (direction > 0) deflection(surface, order);
       });
 }
 

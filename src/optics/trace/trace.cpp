@@ -6,7 +6,7 @@
 
 #include "optics/surface/shape-inl.h"
 #include "optics/surface/surface-inl.h"
-#include "optics/trace/beside_axis.h"
+#include "optics/trace/height_vector.h"
 
 namespace contrejour {
 namespace {
@@ -40,8 +40,8 @@ Meeting meet_tilted_shape(hk::Ray3<double> ray, const PathStep& step, const hk::
       0.0,
       {}};
   m.own = {m.hit.x, m.hit.y, m.hit.nz};
-  hk::turn_back(axis, m.hit.x, m.hit.y, m.hit.sag);
-  hk::turn_back(axis, m.hit.nx, m.hit.ny, m.hit.nz);
+  hk::rotate_back(axis, m.hit.x, m.hit.y, m.hit.sag);
+  hk::rotate_back(axis, m.hit.nx, m.hit.ny, m.hit.nz);
   return m;
 }
 
@@ -73,12 +73,12 @@ Meeting meet(const hk::Ray3<double>& ray, const PathStep& step, bool centred) {
 }
 
 double distance_over_rim(const hk::SurfaceFramePoint<double>& own, const PathStep& step) {
-  const double r = length(step.rim_place({own.x, own.y}));
+  const double r = length(step.rim_point({own.x, own.y}));
   return own.nz > 0.0 ? r : std::max(r, kBeyondEquator);
 }
 
 // A grating perpendicular to the axis adds to the direction's x and y; false if the result is evanescent.
-bool turn_by_grating(State& state, Vec2 grating_shift) {
+bool deflect_by_grating(State& state, Vec2 grating_shift) {
   hk::Ray3<double>& ray = state.ray;
   ray.dx += grating_shift.x;
   ray.dy += grating_shift.y;
@@ -116,7 +116,7 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
   if (step.blocks_within) {
     state.out.obscured = std::max(state.out.obscured, 1.0 - distance);
   } else {
-    state.out.r_rel = std::max(state.out.r_rel, distance);
+    state.out.relative_height = std::max(state.out.relative_height, distance);
   }
   const double cos_in = std::min(1.0, hit.cos_in);
   const double r = reflectance(step.coating, step.n_in, step.n_out, cos_in, path.lambda_nm);
@@ -124,7 +124,7 @@ bool advance(State& state, const PathStep& step, const OpticalPath& path, double
   if (step.event == PathEvent::Reflect) {
     hk::reflect(state.ray, hit, direction);
     state.out.transmission *= r * step.efficiency;
-    return step.grating_shift == Vec2{} || turn_by_grating(state, step.grating_shift);
+    return step.grating_shift == Vec2{} || deflect_by_grating(state, step.grating_shift);
   }
   if (hk::refract(state.ray, hit, step.n_in / step.n_out, direction) <= 0.0) {
     state.out.status = RayStatus::TotalReflection;
@@ -190,7 +190,7 @@ TracedRay trace(const OpticalPath& path, const Ray& ray) {
 
 namespace contrejour::inline internal {
 
-Vec2 beside_axis(const PathStep& step, Vec3 position_mm) {
+Vec2 height_vector(const PathStep& step, Vec3 position_mm) {
   const Vec3 from = position_mm - step.pose.shift_mm - Vec3{0.0, 0.0, step.z_mm};
   hk::Hit<double> hit{};
   hit.x = from.x;
@@ -210,15 +210,15 @@ RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
   RayRecord record;
   bool alive = state.out.status == RayStatus::Ok;
   for (auto step = path.steps.begin(); alive && step != path.steps.end(); ++step) {
-    TraceStep seen;
-    seen.surface = step->surface + 1;
-    seen.event = step->event;
-    seen.is_rim_only = step->is_rim_only;
-    alive = advance(state, *step, path, &seen.angle_of_incidence_rad, &seen.reflectance);
+    TraceStep recorded;
+    recorded.surface = step->surface + 1;
+    recorded.event = step->event;
+    recorded.is_rim_only = step->is_rim_only;
+    alive = advance(state, *step, path, &recorded.angle_of_incidence_rad, &recorded.reflectance);
     if (state.out.status == RayStatus::Missed) break;
-    seen.position_mm = {state.ray.x, state.ray.y, state.ray.z};
-    seen.direction_after = {state.ray.dx, state.ray.dy, state.ray.dz};
-    record.steps.push_back(seen);
+    recorded.position_mm = {state.ray.x, state.ray.y, state.ray.z};
+    recorded.direction_after = {state.ray.dx, state.ray.dy, state.ray.dz};
+    record.steps.push_back(recorded);
   }
   if (alive) land(state, path.sensor_z_mm);
   fail_dark(state.out);
@@ -227,7 +227,7 @@ RayRecord trace_recorded(const OpticalPath& path, const Ray& ray) {
 }
 
 double blocked_by(const TracedRay& ray, const OpticalPath& path, const Iris& iris) {
-  double worst = std::max(ray.r_rel - 1.0, ray.obscured);
+  double worst = std::max(ray.relative_height - 1.0, ray.obscured);
   for (int k = 0; k < std::min(path.stop_crossings, kMaxStopCrossings); ++k) {
     worst = std::max(worst, iris_distance(iris, ray.stop[static_cast<std::size_t>(k)]));
   }

@@ -54,15 +54,16 @@ class Stopwatch {
 
 // Orders the items by falling cost, so that no thread is left with a long one at the end. Items of about equal cost
 // keep their order, since neighbours pass the same surfaces.
-std::vector<std::size_t> longest_first(std::span<const ItemSize> sizes, double peak) {
+std::vector<std::size_t> longest_first(std::span<const ItemEstimate> estimates, double peak) {
   std::vector<int> doublings;
-  for (const ItemSize& size : sizes) {
+  for (const ItemEstimate& estimate : estimates) {
     // The cost in rays of the preview frame. Measurements show that an item's visible light costs about as much as this
     // many rays.
-    const double seen = size.level * seen_share(size.level, peak) / peak * std::sqrt(std::max(size.area_px, 0.0));
-    doublings.push_back(std::ilogb(std::max(size.rays + seen, 1.0)));
+    const double visible =
+        estimate.level * peak_limited_weight(estimate.level, peak) / peak * std::sqrt(std::max(estimate.area_px, 0.0));
+    doublings.push_back(std::ilogb(std::max(estimate.rays + visible, 1.0)));
   }
-  std::vector<std::size_t> order(sizes.size());
+  std::vector<std::size_t> order(estimates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return doublings[k]; });
   return order;
@@ -78,7 +79,7 @@ class FramePainter {
     quiet_.progress = {};
   }
 
-  void paint(const std::vector<Item>& items, const std::vector<ItemSize>& sizes, const ErrorBudget& budget) {
+  void paint(const std::vector<Item>& items, const std::vector<ItemEstimate>& estimates, const ErrorBudget& budget) {
     const bool patterned =
         std::ranges::any_of(items, [](const Item& item) { return item.patterns != nullptr || !item.shadows.empty(); });
     mode_ = RasterMode::Write;
@@ -88,7 +89,7 @@ class FramePainter {
       for (std::size_t lists = 0; done < items.size() && batch->bytes() < kBatchBytes;) {
         const std::size_t count = std::min(patterned ? kPatternedItemsAtOnce : kItemsAtOnce, items.size() - done);
         batch->extend(count);
-        paint_some({items.data() + done, count}, {sizes.data() + done, count}, budget, *batch, lists);
+        paint_some({items.data() + done, count}, {estimates.data() + done, count}, budget, *batch, lists);
         lists += count;
         if (context_.cancelled()) return;  // some items may not be painted
         done += count;
@@ -110,18 +111,18 @@ class FramePainter {
   }
 
   // first: the list of the first item in the batch.
-  void paint_some(std::span<const Item> items, std::span<const ItemSize> sizes, const ErrorBudget& budget,
+  void paint_some(std::span<const Item> items, std::span<const ItemEstimate> estimates, const ErrorBudget& budget,
                   PolygonBatch& batch, std::size_t first) {
     std::vector<Work> work(items.size());
     std::vector<std::size_t> primitives(items.size());
-    const std::vector<std::size_t> order = longest_first(sizes, budget.peak);
+    const std::vector<std::size_t> order = longest_first(estimates, budget.peak);
     std::atomic<std::size_t> next = 0;
     parallel_for(items.size(), quiet_, [&](std::size_t) {
       const std::size_t k = order[next.fetch_add(1)];
-      Painted painted = paint_item(scene_, items[k], sizes[k], frame_, budget, scratch_.cells);
-      work[k] = painted.work;
-      primitives[k] = painted.polygons.polygons.size();
-      batch.set(first + k, std::move(painted.polygons));
+      TessellatedItem tessellated = tessellate_item(scene_, items[k], estimates[k], frame_, budget, scratch_.cells);
+      work[k] = tessellated.work;
+      primitives[k] = tessellated.polygons.polygons.size();
+      batch.set(first + k, std::move(tessellated.polygons));
     });
     for (const Work& one : work) work_.add(one);
     for (const std::size_t count : primitives) flare_.statistics.primitives += count;
@@ -129,13 +130,14 @@ class FramePainter {
 
   void draw(PolygonBatch& batch, bool is_last) {
     const bool is_first = mode_ == RasterMode::Write;
-    if (is_first && is_last && scene_.plan.dark_margin_px) return draw_lit_part(batch, *scene_.plan.dark_margin_px);
+    if (is_first && is_last && scene_.plan.dark_margin_px)
+      return draw_illuminated_region(batch, *scene_.plan.dark_margin_px);
     if (is_first) flare_.image = unwritten_image(cache_, frame_.width, frame_.height);
     batch.draw(mode_, context_, {flare_.image});
     mode_ = RasterMode::Add;
   }
 
-  void draw_lit_part(PolygonBatch& all, int margin_px) {
+  void draw_illuminated_region(PolygonBatch& all, int margin_px) {
     const PixelArea lit = all.touched();
     if (lit.x1 <= lit.x0) return;
     flare_.left = std::max(lit.x0 - margin_px, 0);
@@ -181,23 +183,23 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   const double bound_ms = watch.lap_ms();
   StopTransmittances stops(lens, settings, plan.dirt, cache);
   const std::shared_ptr<Scratch> scratch = cache.section<Scratch>({});
-  const RoughFrame rough = draw_roughly(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
+  const PreviewFrame preview = draw_preview(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
   if (context.cancelled()) return interrupted();
-  const bool dark = !(rough.peak > 0.0);
-  const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : rough.peak, plan.least_peak),
+  const bool dark = !(preview.peak > 0.0);
+  const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
                            static_cast<double>(frame.width) * frame.height};
-  if (stops.on() && !dark) work.add(set_stop_patterns(scene, stops, items, rough.sizes, allowed, quiet));
+  if (stops.on() && !dark) work.add(set_stop_patterns(scene, stops, items, preview.estimates, allowed, quiet));
   if (context.cancelled()) return interrupted();
   if (!dark) {
-    const std::vector<bool> faint = faint_items(rough.sizes, allowed);
-    for (std::size_t k = 0; k < items.size(); ++k) items[k].is_faint = faint[k];
+    const std::vector<bool> negligible = negligible_items(preview.estimates, allowed);
+    for (std::size_t k = 0; k < items.size(); ++k) items[k].is_negligible = negligible[k];
   }
-  if (scene.plan.dirt && !dark) shadow_items(scene, stops, items, rough.sizes, allowed, quiet);
+  if (scene.plan.dirt && !dark) shadow_items(scene, stops, items, preview.estimates, allowed, quiet);
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
   const PatternAtlas* const atlas = stops.patterns() ? &stops.patterns()->atlas() : nullptr;
   FramePainter painter(scene, frame, atlas, *scratch, cache, context, flare);
-  painter.paint(items, rough.sizes, budget_per_item(allowed, rough.sizes));
+  painter.paint(items, preview.estimates, budget_per_item(allowed, preview.estimates));
   if (context.cancelled()) return interrupted();
 
   work.add(painter.work());

@@ -23,7 +23,7 @@ std::vector<double> wavelengths_of(const PlannedLight& light) {
 }
 
 // An item with stop patterns is traced through an enlarged stop, to include the light outside the opening.
-double stop_times(const Item& item) { return item.patterns ? item.patterns->reach : 1.0; }
+double stop_times(const Item& item) { return item.patterns ? item.patterns->outer_radius : 1.0; }
 
 PupilRequest request_of(const Scene& scene, const Item& item, std::span<const double> lambda_nm) {
   return {scene.steps, item.ghost, item.light->source, item.window, lambda_nm, stop_times(item)};
@@ -57,10 +57,11 @@ const IrisShape& round_iris() {
 std::vector<PlannedPass> passes_of(const Item& item) {
   std::vector<PlannedPass> passes = item.light->passes;
   for (std::size_t k = 0; k < passes.size(); ++k) {
-    passes[k].gain = item.look->tinted(passes[k].gain);
+    passes[k].gain = item.adjustment->tinted(passes[k].gain);
     const auto& shadows = item.shadows;
-    const double past_dirt = shadows.empty() ? item.past_dirt : shadows[std::min(k, shadows.size() - 1)]->level();
-    for (double& gain : passes[k].gain) gain *= past_dirt;
+    const double dirt_transmittance =
+        shadows.empty() ? item.dirt_transmittance : shadows[std::min(k, shadows.size() - 1)]->level();
+    for (double& gain : passes[k].gain) gain *= dirt_transmittance;
   }
   return passes;
 }
@@ -68,7 +69,7 @@ std::vector<PlannedPass> passes_of(const Item& item) {
 // Merges all passes into the middle one. Each gain is scaled by the ratio of reflectances, since films reflect least at
 // the middle wavelength: without the ratios the peak would be a third of what it is.
 PlannedPass merged(const Scene& scene, const Item& item, std::span<const PlannedPass> passes) {
-  const auto by = [&](const PlannedPass& pass) { return scene.plan.reflected.of(item.ghost, pass.lambda_nm); };
+  const auto by = [&](const PlannedPass& pass) { return scene.plan.reflectances.of(item.ghost, pass.lambda_nm); };
   const PlannedPass& middle = passes[passes.size() / 2];
   const double by_middle = by(middle);
   PlannedPass all{middle.lambda_nm, {}};
@@ -79,43 +80,43 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
-// Rough: preview quality, with the rays of one wavelength for all.
-enum class Care { Rough, Little, Much };
+// Preview: the rays of one wavelength serve for all.
+enum class Quality { Preview, Low, Full };
 
-Painted paint(const Scene& scene, const Item& item, Care care, const Frame& whole, const ErrorBudget& budget,
-              Pool<BoxCells>& rooms) {
-  Painted painted;
-  const Frame frame = item.look->placed(whole);
+TessellatedItem tessellate(const Scene& scene, const Item& item, Quality quality, const Frame& whole,
+                           const ErrorBudget& budget, Pool<BoxCells>& scratch_pool) {
+  TessellatedItem tessellated;
+  const Frame frame = item.adjustment->placed(whole);
   const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
   const IrisShape& iris = item.patterns ? round_iris() : scene.iris;
   std::vector<PlannedPass> passes = passes_of(item);
-  if (care == Care::Rough) passes = {merged(scene, item, passes)};
+  if (quality == Quality::Preview) passes = {merged(scene, item, passes)};
   GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
-  const auto room = rooms.lend();
-  GhostPainter painter(tracers, iris, frame, care == Care::Much ? kDeepest : kPeakDeepest, *room, item.patterns.get(),
-                       item.shadows);
+  const auto scratch = scratch_pool.lend();
+  GhostTessellator tessellator(tracers, iris, frame, quality == Quality::Full ? kMaxDepth : kPeakMaxDepth, *scratch,
+                               item.patterns.get(), item.shadows);
   for (const Rectangle& box : item.boxes) {
-    const bool aside = light.symmetric && box.low.y != -box.high.y;
-    const bool has_image = aside && std::ranges::count(item.boxes, mirrored(box)) > 0;
-    if (has_image && is_mirror_image(box)) continue;  // painted together with the other box
-    painter.paint(box, has_image, budget, painted.polygons);
+    const bool off_axis = light.symmetric && box.low.y != -box.high.y;
+    const bool has_image = off_axis && std::ranges::count(item.boxes, mirrored(box)) > 0;
+    if (has_image && is_mirror_image(box)) continue;  // tessellated together with the other box
+    tessellator.tessellate(box, has_image, budget, tessellated.polygons);
   }
-  share_edges(painted.polygons, whole.width, whole.height);
-  painted.work = {tracers.rays(), tracers.surface_hits()};
-  return painted;
+  share_edges(tessellated.polygons, whole.width, whole.height);
+  tessellated.work = {tracers.rays(), tracers.surface_hits()};
+  return tessellated;
 }
 
 // The level and the area of a list of polygons, in pixels of the whole frame.
-Spread spread_of(const PolygonList& list, int scale) {
+LevelEstimate level_of(const PolygonList& list, int scale) {
   const double pixels = scale * scale;
-  const double least_px = 1.0 / pixels;
+  const double min_px = 1.0 / pixels;
   double light = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
     const double polygon_px = 0.5 * std::abs(twice_signed_area(list.corners_of(polygon)));
-    const auto& v = list.shade_of(polygon).value;
+    const auto& v = list.irradiance_of(polygon).value;
     const double here = polygon_px * std::sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0);
     light += here;
-    squares += here * here / std::max(polygon_px, least_px);
+    squares += here * here / std::max(polygon_px, min_px);
   }
   if (!(squares > 0.0)) return {};
   return {squares / light / pixels, light * light / squares * pixels};
@@ -141,7 +142,7 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   for_each_pair(scene.plan, [&](std::size_t g, std::size_t k) {
     const Ghost& ghost = scene.plan.ghosts[g];
     items.push_back(
-        {ghost, &scene.plan.looks[g], &lights[k], windows[k].of(has_axial_symmetry(scene.lens, ghost)), {}});
+        {ghost, &scene.plan.adjustments[g], &lights[k], windows[k].of(has_axial_symmetry(scene.lens, ghost)), {}});
   });
   std::vector<Work> done(items.size());
   const std::vector<GhostPupil>& known = scene.plan.pupils;
@@ -152,14 +153,14 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   return items;
 }
 
-Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
-                   const ErrorBudget& budget, Pool<BoxCells>& rooms) {
-  const ErrorBudget of_item = budget_of(size, item.patterns != nullptr, item.is_faint, budget);
-  return paint(scene, item, item.is_faint ? Care::Little : Care::Much, frame, of_item, rooms);
+TessellatedItem tessellate_item(const Scene& scene, const Item& item, const ItemEstimate& estimate, const Frame& frame,
+                                const ErrorBudget& budget, Pool<BoxCells>& scratch_pool) {
+  const ErrorBudget of_item = budget_of(estimate, item.patterns != nullptr, item.is_negligible, budget);
+  return tessellate(scene, item, item.is_negligible ? Quality::Low : Quality::Full, frame, of_item, scratch_pool);
 }
 
-RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame, Pool<BoxCells>& rooms,
-                        Rasteriser& rasteriser, const Context& context, Work& work) {
+PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
+                          Pool<BoxCells>& scratch_pool, Rasteriser& rasteriser, const Context& context, Work& work) {
   const int scale = preview_scale(frame);
   const Frame small = smaller(frame, scale);
   // While the peak is not known no level is high relative to it, whatever the light's value.
@@ -168,25 +169,25 @@ RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, cons
   const std::unique_ptr<PolygonBatch> batch = rasteriser.new_batch(small.width, small.height, nullptr);
   batch->extend(items.size());
   std::vector<Work> done(items.size());
-  RoughFrame rough;
-  rough.sizes.resize(items.size());
+  PreviewFrame preview;
+  preview.estimates.resize(items.size());
   parallel_for(items.size(), context, [&](std::size_t k) {
-    Painted painted = paint(scene, items[k], Care::Rough, small, unlimited, rooms);
-    done[k] = painted.work;
-    rough.sizes[k] = {spread_of(painted.polygons, scale), static_cast<double>(done[k].rays)};
-    batch->set(k, std::move(painted.polygons));
+    TessellatedItem tessellated = tessellate(scene, items[k], Quality::Preview, small, unlimited, scratch_pool);
+    done[k] = tessellated.work;
+    preview.estimates[k] = {level_of(tessellated.polygons, scale), static_cast<double>(done[k].rays)};
+    batch->set(k, std::move(tessellated.polygons));
   });
   for (const Work& w : done) work.add(w);
   if (context.cancelled()) return {};
   Image image = Image::unwritten(small.width, small.height);
   batch->draw(RasterMode::Write, context, {image});
   if (context.cancelled()) return {};
-  rough.peak = quantile_of_samples(image, kPeakQuantile);
-  if (!(rough.peak > 0.0)) {
-    for (const float value : image.pixels) rough.peak = std::max(rough.peak, static_cast<double>(value));
+  preview.peak = quantile_of_samples(image, kPeakQuantile);
+  if (!(preview.peak > 0.0)) {
+    for (const float value : image.pixels) preview.peak = std::max(preview.peak, static_cast<double>(value));
   }
-  rough.peak /= scale * scale;
-  return rough;
+  preview.peak /= scale * scale;
+  return preview;
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -4,13 +4,13 @@
 
 #include "base/pool.h"
 #include "render/adaptive/budget/item_budget.h"
-#include "render/adaptive/ghost_painter.h"
+#include "render/adaptive/ghost_tessellator.h"
 #include "render/planning/frame_plan.h"
 #include "render/polygons/rasteriser.h"
 
 namespace contrejour::inline internal::adaptive {
 
-// What all items of a frame have in common.
+// The data that all items of a frame have in common.
 struct Scene {
   const LensState& lens;
   const FramePlan& plan;
@@ -28,21 +28,21 @@ struct Work {
 
 struct Item {
   Ghost ghost;
-  const GhostLook* look = nullptr;
+  const AppliedAdjustment* adjustment = nullptr;
   const PlannedLight* light = nullptr;
   EntranceWindow window;  // of the light
   std::vector<Rectangle> boxes;  // in the light's meridional frame; empty: no light gets through
   std::shared_ptr<const GhostPatterns> patterns = nullptr;  // null: the iris is sharp
   // Transmittance of dirt: one a pass, or one for all; empty: no shadows are drawn, and
   std::vector<std::shared_ptr<const DirtShadows>> shadows = {};
-  double past_dirt = 1.0;  // the item is dimmed by this transmittance
-  bool is_faint = false;     // drawn in preview quality, at all wavelengths
+  double dirt_transmittance = 1.0;  // the item is dimmed by this transmittance
+  bool is_negligible = false;     // drawn in preview quality, at all wavelengths
 };
 
 // One item for each ghost and light, in the order of the plan.
 [[nodiscard]] std::vector<Item> find_items(const Scene& scene, const Context& context, Work& work);
 
-struct Painted {
+struct TessellatedItem {
   PolygonList polygons;
   Work work;
 };
@@ -50,16 +50,17 @@ struct Painted {
 // Widens the item's boxes to contain the light that its stop patterns transmit.
 [[nodiscard]] Work widen_boxes(const Scene& scene, Item& item);
 
-// Paints an item in all wavelengths of its light. size: the item's in the preview frame.
-[[nodiscard]] Painted paint_item(const Scene& scene, const Item& item, const ItemSize& size, const Frame& frame,
-                                 const ErrorBudget& budget, Pool<BoxCells>& rooms);
+// Tessellates an item in all wavelengths of its light. estimate: the item's in the preview frame.
+[[nodiscard]] TessellatedItem tessellate_item(const Scene& scene, const Item& item, const ItemEstimate& estimate,
+                                              const Frame& frame, const ErrorBudget& budget,
+                                              Pool<BoxCells>& scratch_pool);
 
-struct RoughFrame {
+struct PreviewFrame {
   double peak = 0;  // that errors are relative to: 99.9 per cent of samples are below it (metrics.h)
-  std::vector<ItemSize> sizes;  // one an item; empty if cancelled
+  std::vector<ItemEstimate> estimates;  // one an item; empty if cancelled
 };
-[[nodiscard]] RoughFrame draw_roughly(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
-                                      Pool<BoxCells>& rooms, Rasteriser& rasteriser, const Context& context,
-                                      Work& work);
+[[nodiscard]] PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, const Frame& frame,
+                                        Pool<BoxCells>& scratch_pool, Rasteriser& rasteriser, const Context& context,
+                                        Work& work);
 
 }  // namespace contrejour::inline internal::adaptive

@@ -9,13 +9,13 @@
 
 #include "render/adaptive/budget/patterned_boxes.h"
 #include "render/adaptive/cells/ray_map_names.h"
-#include "render/ray_maps/lit_part.h"
-#include "render/ray_maps/sheet_cells.h"
+#include "render/ray_maps/illuminated_region.h"
+#include "render/ray_maps/lobatto_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr std::array kNodes{kFewestNodes, 9, 17};
+constexpr std::array kNodes{kMinNodes, 9, 17};
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
 
 // The estimated error of a patch over its tolerance.
@@ -25,25 +25,25 @@ double misfit(const Patch& patch, const Tolerance& tolerance) {
                    e.weight / tolerance.weight});
 }
 
-bool all_arrive(std::span<const RaySheet> sheets) {
-  return std::all_of(sheets.begin(), sheets.end(), [](const RaySheet& sheet) { return sheet.failed == 0; });
+bool all_arrive(std::span<const LobattoRays> ray_sets) {
+  return std::all_of(ray_sets.begin(), ray_sets.end(), [](const LobattoRays& ray_set) { return ray_set.failed == 0; });
 }
 
-bool gets_through(const RaySheet& sheet, std::size_t node) {
+bool gets_through(const LobattoRays& ray_set, std::size_t node) {
   const auto passes = [&](const auto& at) { return std::hypot(at[0][node], at[1][node]) <= 1.0F; };
-  return sheet.r_rel[node] <= 1.0F && std::ranges::all_of(sheet.stop, passes);
+  return ray_set.relative_height[node] <= 1.0F && std::ranges::all_of(ray_set.stop, passes);
 }
 
 // The area of the entrance between rays that get through and rays that fail, in which linear interpolation between rays
 // loses light.
-double beside_failure_mm2(const RaySheet& sheet) {
-  const SheetCells cells(sheet);
+double area_next_to_failures_mm2(const LobattoRays& ray_set) {
+  const LobattoCells cells(ray_set);
   double sum_mm2 = 0.0;
   for (std::size_t first = 0; first < cells.end(); ++first) {
     if (!cells.has(first)) continue;
     const auto corners = cells.corners(first);
-    if (std::ranges::any_of(corners, [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }) &&
-        std::ranges::any_of(corners, [&](std::size_t k) { return gets_through(sheet, k); }))
+    if (std::ranges::any_of(corners, [&](std::size_t k) { return std::isinf(ray_set.relative_height[k]); }) &&
+        std::ranges::any_of(corners, [&](std::size_t k) { return gets_through(ray_set, k); }))
       sum_mm2 += cells.entrance_mm2(first);
   }
   return sum_mm2;
@@ -63,7 +63,7 @@ double misfit(const BandSet& bands, std::span<const Patch> patches, const Tolera
 
 }  // namespace
 
-FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
+FittedBox PatchFitter::fit(BandSet& bands, std::span<const LobattoRays> first, const Tolerance& tolerance,
                            const BandPatterns& patterns, bool with_mirror_image) {
   FittedBox out;
   const Fitting fitting{bands, tolerance, patterns, out.parts, with_mirror_image ? &out.mirror_image : nullptr};
@@ -73,7 +73,7 @@ FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, cons
     std::vector<Patch> patches = bands.make_patches(first, frame_);
     first_misfit = misfit(bands, patches, tolerance);
     if (first_misfit <= 1.0) {
-      keep(part.place, first, std::move(patches), fitting);
+      keep(part.position, first, std::move(patches), fitting);
       return out;
     }
   }
@@ -83,9 +83,9 @@ FittedBox PatchFitter::fit(BandSet& bands, std::span<const RaySheet> first, cons
 
 // A box that no other box adjoins.
 PatchFitter::BoxPart PatchFitter::whole(const Rectangle& box, int depth) {
-  const MeshPlace place{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
+  const MeshPosition position{boxes_, is_symmetric(box) ? boxes_ : boxes_ + 1};
   boxes_ += 2;
-  return {box, place, depth};
+  return {box, position, depth};
 }
 
 bool PatchFitter::is_symmetric(const Rectangle& box) const {
@@ -98,35 +98,36 @@ PacketPrecision PatchFitter::precision_for(const Rectangle& box, const Tolerance
   return coarse && std::min(size.x, size.y) > kFloatBox_mm ? PacketPrecision::Float : PacketPrecision::Double;
 }
 
-// first_misfit: that of kFewestNodes nodes, if known.
+// first_misfit: that of kMinNodes nodes, if known.
 void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, const Fitting& fitting) {
   BandSet& bands = fitting.bands;
   const Rectangle& box = part.box;
   double before = first_misfit.value_or(kNoFit);
   for (std::size_t k = first_misfit ? 1 : 0; k < kNodes.size(); ++k) {
     const PacketPrecision precision = precision_for(box, fitting.tolerance);
-    std::vector<RaySheet> sheets = bands.trace(box, kNodes[k], precision);
-    const std::optional<double> level = level_behind(sheets, fitting);
-    if (level && *level < unseen_) return;
-    const bool rough = level && *level < kRough * unseen_;
-    const double looser = level ? std::clamp(fitting.tolerance.level / *level, 1.0, kMostLooser) : 1.0;
-    const auto lit = lit_part(sheets, tracers_.light(), frame_, fitting.mirror_image != nullptr);
-    if (!lit) return;
-    const bool last_part = part.depth >= deepest_;
-    if (!last_part && area_of(*lit) < kWorthShrinking * area_of(box))
-      return fit(whole(*lit, part.depth + 1), std::nullopt, fitting);
+    std::vector<LobattoRays> ray_sets = bands.trace(box, kNodes[k], precision);
+    const std::optional<double> level = level_behind(ray_sets, fitting);
+    if (level && *level < negligible_level_) return;
+    const bool negligible = level && *level < kNegligibleLevels * negligible_level_;
+    const double looser = level ? std::clamp(fitting.tolerance.level / *level, 1.0, kMaxLoosening) : 1.0;
+    const auto illuminated = illuminated_region(ray_sets, tracers_.light(), frame_, fitting.mirror_image != nullptr);
+    if (!illuminated) return;
+    const bool last_part = part.depth >= max_depth_;
+    if (!last_part && area_of(*illuminated) < kWorthShrinking * area_of(box))
+      return fit(whole(*illuminated, part.depth + 1), std::nullopt, fitting);
     const bool last = k + 1 == kNodes.size();
-    const bool arrive = all_arrive(sheets);
-    if (!arrive && !last_part && !rough) break;
-    if (!arrive && !rough && beside_failure_mm2(sheets.front()) > fitting.tolerance.lost_mm2) {
+    const bool arrive = all_arrive(ray_sets);
+    if (!arrive && !last_part && !negligible) break;
+    if (!arrive && !negligible && area_next_to_failures_mm2(ray_sets.front()) > fitting.tolerance.lost_mm2) {
       if (!last) continue;
-      if (part.depth < deepest_ + kBesideFailure) break;
+      if (part.depth < max_depth_ + kNextToFailure) break;
     }
-    bands.add_weights(sheets, precision);
-    if (!arrive) return fit_between_rays(part, sheets, fitting);
-    std::vector<Patch> patches = bands.make_patches(sheets, frame_);
+    bands.add_weights(ray_sets, precision);
+    if (!arrive) return fit_between_rays(part, ray_sets, fitting);
+    std::vector<Patch> patches = bands.make_patches(ray_sets, frame_);
     const double now = misfit(bands, patches, fitting.tolerance) / looser;
-    if (now <= 1.0 || rough || (last && last_part)) return keep(part.place, sheets, std::move(patches), fitting);
+    if (now <= 1.0 || negligible || (last && last_part))
+      return keep(part.position, ray_sets, std::move(patches), fitting);
     // Errors fall by a constant factor for a constant number of further nodes; the next step adds twice as many.
     const double next = now * (now / before) * (now / before);
     if (next > kHopeless && !last_part) break;
@@ -135,25 +136,25 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
   fit_quarters(part, fitting);
 }
 
-// patches: those of the sheets.
-void PatchFitter::keep(const MeshPlace& place, std::span<const RaySheet> sheets, std::vector<Patch> patches,
+// patches: those of the ray sets.
+void PatchFitter::keep(const MeshPosition& position, std::span<const LobattoRays> ray_sets, std::vector<Patch> patches,
                        const Fitting& fitting) const {
-  fitting.parts.push_back({place, std::move(patches), fitting.only_band});
+  fitting.parts.push_back({position, std::move(patches), fitting.only_band});
   if (fitting.mirror_image == nullptr) return;
-  std::vector<RaySheet> others;
-  for (const RaySheet& sheet : sheets) others.push_back(mirrored(sheet));
-  fitting.mirror_image->push_back({place.mirrored(), fitting.bands.make_patches(others, frame_), fitting.only_band});
+  std::vector<LobattoRays> others;
+  for (const LobattoRays& ray_set : ray_sets) others.push_back(mirrored(ray_set));
+  fitting.mirror_image->push_back({position.mirrored(), fitting.bands.make_patches(others, frame_), fitting.only_band});
 }
 
 // Interpolates linearly between the rays that arrive, for each band by itself, since rays fail at different points.
-void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const RaySheet> sheets, const Fitting& fitting) {
-  if (fitting.bands.size() == 1 && sheets.size() == 1) {
-    const auto add_cells = [&](const RaySheet& sheet, std::vector<FittedPart>& parts) {
-      for (Patch& patch : patches_of_cells(sheet, tracers_.light(), frame_))
-        parts.push_back({whole(patch.box).place, {std::move(patch)}, fitting.only_band.value_or(0)});
+void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const LobattoRays> ray_sets, const Fitting& fitting) {
+  if (fitting.bands.size() == 1 && ray_sets.size() == 1) {
+    const auto add_cells = [&](const LobattoRays& ray_set, std::vector<FittedPart>& parts) {
+      for (Patch& patch : patches_of_cells(ray_set, tracers_.light(), frame_))
+        parts.push_back({whole(patch.box).position, {std::move(patch)}, fitting.only_band.value_or(0)});
     };
-    add_cells(sheets.front(), fitting.parts);
-    if (fitting.mirror_image != nullptr) add_cells(mirrored(sheets.front()), *fitting.mirror_image);
+    add_cells(ray_sets.front(), fitting.parts);
+    if (fitting.mirror_image != nullptr) add_cells(mirrored(ray_sets.front()), *fitting.mirror_image);
     return;
   }
   for (std::size_t k = 0; k < fitting.bands.size(); ++k) {
@@ -175,23 +176,24 @@ void PatchFitter::fit_quarters(const BoxPart& part, const Fitting& fitting) {
     if (symmetric && !upper) return;
     const Rectangle quarter{{right ? middle.x : box.low.x, upper ? middle.y : box.low.y},
                             {right ? box.high.x : middle.x, upper ? box.high.y : middle.y}};
-    fit({quarter, part.place.quarter(q), part.depth + 1}, std::nullopt, of_quarter);
+    fit({quarter, part.position.quarter(q), part.depth + 1}, std::nullopt, of_quarter);
   }
 }
 
 // An estimate of the brightest pixel of a box, or of its mirror image, behind a stop pattern. Empty where it is not
 // used: the iris is sharp, there are several bands, or no four neighbouring rays all arrive.
-std::optional<double> PatchFitter::level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const {
+std::optional<double> PatchFitter::level_behind(std::span<const LobattoRays> ray_sets, const Fitting& fitting) const {
   const BandSet& bands = fitting.bands;
-  if (fitting.patterns.front() == nullptr || bands.size() > 1 || sheets.size() > 1) return std::nullopt;
+  if (fitting.patterns.front() == nullptr || bands.size() > 1 || ray_sets.size() > 1) return std::nullopt;
   Rgb gain{};
   for (std::size_t k = bands.band(0).first; k < bands.band(0).last; ++k)
     for (std::size_t c = 0; c < 3; ++c) gain[c] += tracers_.passes()[k].gain[c];
   const double pixel_mm2 = frame_.pixel_pitch_mm * frame_.pixel_pitch_mm;
   const double scale = std::max({std::abs(gain[0]), std::abs(gain[1]), std::abs(gain[2])}) * pixel_mm2;
-  const double enough = std::max(fitting.tolerance.level, kRough * unseen_);
-  const auto brightest = brightest_passed(sheets.front(), fitting.mirror_image != nullptr, *fitting.patterns.front(),
-                                          tracers_.stop_times(), tracers_.light(), enough / scale);
+  const double enough = std::max(fitting.tolerance.level, kNegligibleLevels * negligible_level_);
+  const auto brightest =
+      brightest_transmitted(ray_sets.front(), fitting.mirror_image != nullptr, *fitting.patterns.front(),
+                            tracers_.stop_times(), tracers_.light(), enough / scale);
   return brightest ? std::optional(*brightest * scale) : std::nullopt;
 }
 

@@ -19,7 +19,7 @@ namespace contrejour::inline internal::adaptive {
 // A part of a box, with the patches from which BandSet::band_patch() computes each band's patch, or with the patch of
 // one band alone.
 struct FittedPart {
-  MeshPlace place;
+  MeshPosition position;
   std::vector<Patch> patches;
   std::optional<std::size_t> only_band = std::nullopt;
 };
@@ -34,20 +34,20 @@ using BandPatterns =
 
 class PatchFitter {
  public:
-  // deepest: how often a box may be quartered before straight lines between rays must do. unseen: the negligible level
-  // of pixel values behind stop patterns.
-  PatchFitter(GhostTracers& tracers, const Frame& frame, int deepest, double unseen)
-      : tracers_(tracers), frame_(frame), deepest_(deepest), unseen_(unseen) {}
+  // max_depth: how often a box may be quartered before straight lines between rays must do. negligible_level: the
+  // negligible level of pixel values behind stop patterns.
+  PatchFitter(GhostTracers& tracers, const Frame& frame, int max_depth, double negligible_level)
+      : tracers_(tracers), frame_(frame), max_depth_(max_depth), negligible_level_(negligible_level) {}
 
-  // first: rays of the box at kFewestNodes, with weights.
-  [[nodiscard]] FittedBox fit(BandSet& bands, std::span<const RaySheet> first, const Tolerance& tolerance,
+  // first: rays of the box at kMinNodes, with weights.
+  [[nodiscard]] FittedBox fit(BandSet& bands, std::span<const LobattoRays> first, const Tolerance& tolerance,
                               const BandPatterns& patterns, bool with_mirror_image);
 
  private:
   // A box, or a quarter of another part.
   struct BoxPart {
     Rectangle box;
-    MeshPlace place;
+    MeshPosition position;
     int depth = 0;
   };
   struct Fitting {
@@ -63,16 +63,16 @@ class PatchFitter {
   [[nodiscard]] bool is_symmetric(const Rectangle& box) const;
   void fit(const BoxPart& part, std::optional<double> first_misfit, const Fitting& fitting);
   void fit_quarters(const BoxPart& part, const Fitting& fitting);
-  void fit_between_rays(const BoxPart& part, std::span<const RaySheet> sheets, const Fitting& fitting);
-  void keep(const MeshPlace& place, std::span<const RaySheet> sheets, std::vector<Patch> patches,
+  void fit_between_rays(const BoxPart& part, std::span<const LobattoRays> ray_sets, const Fitting& fitting);
+  void keep(const MeshPosition& position, std::span<const LobattoRays> ray_sets, std::vector<Patch> patches,
             const Fitting& fitting) const;
   [[nodiscard]] PacketPrecision precision_for(const Rectangle& box, const Tolerance& tolerance) const;
-  [[nodiscard]] std::optional<double> level_behind(std::span<const RaySheet> sheets, const Fitting& fitting) const;
+  [[nodiscard]] std::optional<double> level_behind(std::span<const LobattoRays> ray_sets, const Fitting& fitting) const;
 
   GhostTracers& tracers_;
   const Frame& frame_;
-  int deepest_;
-  double unseen_;
+  int max_depth_;
+  double negligible_level_;
   int boxes_ = 0;  // indices of boxes in use
 };
 

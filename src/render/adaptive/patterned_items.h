@@ -14,10 +14,10 @@ namespace contrejour::inline internal::adaptive {
 [[nodiscard]] std::vector<PlannedPass> passes_with_patterns(std::span<const PlannedPass> passes);
 
 // Gives stop patterns, and boxes wide enough for the light outside the opening, to all items except those whose fringes
-// together make a small part of the error. sizes: the items' in the preview frame (draw_roughly). Incomplete when
+// together make a small part of the error. estimates: the items' in the preview frame (draw_preview). Incomplete when
 // cancelled.
 [[nodiscard]] Work set_stop_patterns(const Scene& scene, StopTransmittances& stops, std::vector<Item>& items,
-                                     const std::vector<ItemSize>& sizes, const FrameError& allowed,
+                                     const std::vector<ItemEstimate>& estimates, const FrameError& allowed,
                                      const Context& context);
 
 }  // namespace contrejour::inline internal::adaptive

@@ -13,8 +13,8 @@ namespace contrejour::inline internal::adaptive {
 void dim_items(const Scene& scene, std::vector<Item>& items);
 
 // Gives shadows to all items except those in which leaving them out makes, all together, a small part of the error.
-// sizes: the items' in the preview frame (draw_roughly). Incomplete when cancelled.
+// estimates: the items' in the preview frame (draw_preview). Incomplete when cancelled.
 void shadow_items(const Scene& scene, StopTransmittances& stops, std::vector<Item>& items,
-                  const std::vector<ItemSize>& sizes, const FrameError& allowed, const Context& context);
+                  const std::vector<ItemEstimate>& estimates, const FrameError& allowed, const Context& context);
 
 }  // namespace contrejour::inline internal::adaptive

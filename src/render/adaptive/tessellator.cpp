@@ -4,7 +4,7 @@
 namespace contrejour::inline internal::adaptive {
 
 void Tessellator::emit() {
-  cells_.join();
+  cells_.make_conforming();
   for (std::size_t k = 0; k < cells_.count(); ++k)
     for (const ChosenCell& cell : cells_[k].cells) emitter_.emit(cells_[k], cell);
   cells_.clear();

@@ -27,15 +27,15 @@ class Tessellator {
   Tessellator(const Tessellator&) = delete;
   Tessellator& operator=(const Tessellator&) = delete;
 
-  // Chooses the cells of a patch at this place in its box; emit() then emits all cells chosen for a band.
-  void choose(const Patch& patch, const MeshPlace& place) { chooser_.choose(patch, place); }
+  // Chooses the cells of a patch at this position in its box; emit() then emits all cells chosen for a band.
+  void choose(const Patch& patch, const MeshPosition& position) { chooser_.choose(patch, position); }
   void emit();
 
-  // These hold for the patches that follow. sides_bend: as in BandContext.
-  void set_sides_bend(bool sides_bend) { band_.sides_bend = sides_bend; }
+  // These hold for the patches that follow. has_curved_sides: as in BandContext.
+  void set_curved_sides(bool has_curved_sides) { band_.has_curved_sides = has_curved_sides; }
   // unit: of the patches' stop coordinates, in stop radii.
   void set_stop_pattern(std::shared_ptr<const stop_patterns::BandStopPattern> pattern, double unit);
-  void set_dirt(const SeenDirt& dirt) { band_.dirt = dirt; }
+  void set_dirt(const DirtView& dirt) { band_.dirt = dirt; }
 
  private:
   BoxCells& cells_;

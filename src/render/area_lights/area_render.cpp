@@ -9,11 +9,11 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "render/area_lights/area_survey.h"
+#include "render/area_lights/blurred_images.h"
 #include "render/area_lights/convolve.h"
-#include "render/area_lights/drawings.h"
+#include "render/area_lights/ghost_survey.h"
+#include "render/area_lights/image_pyramid.h"
 #include "render/area_lights/kernel.h"
-#include "render/area_lights/layers.h"
 #include "render/planning/error_bound.h"
 #include "render/planning/statistics.h"
 
@@ -22,24 +22,24 @@ namespace {
 
 using namespace area;
 
-constexpr double kUnseen = 0.1;  // of the frame's error: what blurring may leave out at any pixel
+constexpr double kNegligibleError = 0.1;  // of the frame's error: what blurring may leave out at any pixel
 
 // The part of the plan that one drawing needs.
-FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
+FramePlan part_of(const FramePlan& plan, const BlurredImage& image) {
   FramePlan part;
-  std::map<std::size_t, std::size_t> places;
-  for (const GhostOfLight& pair : drawing.pairs) places.try_emplace(pair.ghost, 0);
-  for (auto& [ghost, place] : places) {
-    place = part.ghosts.size();
+  std::map<std::size_t, std::size_t> indices;
+  for (const GhostOfLight& pair : image.pairs) indices.try_emplace(pair.ghost, 0);
+  for (auto& [ghost, position] : indices) {
+    position = part.ghosts.size();
     part.ghosts.push_back(plan.ghosts[ghost]);
-    part.looks.push_back(plan.looks[ghost]);
+    part.adjustments.push_back(plan.adjustments[ghost]);
   }
-  for (const GhostOfLight& pair : drawing.pairs) part.pairs.push_back({places.at(pair.ghost), pair.light});
+  for (const GhostOfLight& pair : image.pairs) part.pairs.push_back({indices.at(pair.ghost), pair.light});
   std::ranges::sort(part.pairs, {}, [](const GhostOfLight& pair) { return std::pair(pair.ghost, pair.light); });
-  part.lights = drawing.lights;
-  part.by_need = plan.by_need;
+  part.lights = image.lights;
+  part.adapts_passes = plan.adapts_passes;
   part.tables = plan.tables;
-  part.reflected = plan.reflected;
+  part.reflectances = plan.reflectances;
   part.dirt = plan.dirt;
   return part;
 }
@@ -48,42 +48,42 @@ FramePlan part_of(const FramePlan& plan, const Drawing& drawing) {
 class AreaPainter {
  public:
   AreaPainter(const DrawPlan& draw, const PlannedFrame& frame, const Context& context)
-      : draw_(draw), frame_(frame), context_(context), layers_(frame.settings.frame) {
+      : draw_(draw), frame_(frame), context_(context), pyramid_(frame.settings.frame) {
     context_.progress = {};
   }
 
-  Result<void> paint(const Drawing& drawing, double peak) {
-    const LightPiece* const piece = drawing.piece.get();
+  Result<void> paint(const BlurredImage& image, double peak) {
+    const LightPiece* const piece = image.piece.get();
     FrameSettings drawn = frame_.settings;
-    FramePlan part = part_of(frame_.plan, drawing);
-    LayerFrame at;
+    FramePlan part = part_of(frame_.plan, image);
+    PyramidFrame at;
     part.dark_margin_px = 0;
-    part.least_peak = peak * std::exp2(2 * drawing.level);
+    part.min_peak = peak * std::exp2(2 * image.level);
     if (piece != nullptr) {
-      const KernelReach reach = reach_of(*piece, drawing.px_from_tangents);
-      at = layers_.frame_for(drawing.level, reach);
+      const KernelExtent extent = extent_of(*piece, image.px_from_tangents);
+      at = pyramid_.frame_for(image.level, extent);
       drawn.frame = at.frame;
-      part.dark_margin_px = std::max(reach.left + reach.right, reach.up + reach.down);
+      part.dark_margin_px = std::max(extent.left + extent.right, extent.up + extent.down);
     }
     auto picture = draw_({frame_.lens, part, drawn, frame_.cache}, context_);
     if (!picture) return tl::unexpected(picture.error());
     add(statistics_, picture->statistics);
     const auto start = Clock::now();
-    layers_.descend_to(drawing.level, context_);
+    pyramid_.upsample_to(image.level, context_);
     const PicturePart lit{picture->image, picture->left, picture->top};
     const bool is_whole = lit.image.width == drawn.frame.width && lit.image.height == drawn.frame.height;
     if (piece != nullptr)
-      layers_.add(lit, at, make_kernel(*piece, drawing.px_from_tangents, at.moved),
-                  kUnseen * frame_.settings.area_error * peak, context_);
+      pyramid_.add(lit, at, make_kernel(*piece, image.px_from_tangents, at.moved),
+                   kNegligibleError * frame_.settings.area_error * peak, context_);
     else
-      is_whole ? layers_.add_sharp(std::move(picture->image), context_) : layers_.add_sharp(lit, context_);
+      is_whole ? pyramid_.add_sharp(std::move(picture->image), context_) : pyramid_.add_sharp(lit, context_);
     ms_ += ms_since(start);
     return {};
   }
 
   Flare finish(double before_ms) && {
     const auto start = Clock::now();
-    Flare flare{std::move(layers_).flattened(context_), std::move(statistics_)};
+    Flare flare{std::move(pyramid_).flattened(context_), std::move(statistics_)};
     RenderStatistics& stats = flare.statistics;
     stats.ghosts_rendered = static_cast<int>(frame_.plan.ghosts.size());
     stats.ghosts_skipped_flux = frame_.plan.skipped_flux;
@@ -95,7 +95,7 @@ class AreaPainter {
   const DrawPlan& draw_;
   const PlannedFrame frame_;
   Context context_;
-  Layers layers_;
+  ImagePyramid pyramid_;
   RenderStatistics statistics_;
   double ms_ = 0.0;
 };
@@ -108,7 +108,7 @@ Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, cons
   if (const auto good = check_error_bound(settings.area_error); !good) return tl::unexpected(good.error());
   for (const Light& light : lights)
     if (const auto ok = check_extent(light); !ok) return tl::unexpected(ok.error());
-  std::vector<PartedLight> wholes = whole_lights(lights);
+  std::vector<DividedLight> wholes = whole_lights(lights);
   const std::vector<Light> points = points_of(wholes);
   auto plan = plan_frame({lens, points, settings, cache}, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
@@ -118,17 +118,17 @@ Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, cons
   start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
-  const auto survey = AreaSurvey(lens, *plan, lights, settings, quiet).of(std::move(wholes));
+  const auto survey = GhostSurvey(lens, *plan, lights, settings, quiet).of(std::move(wholes));
   if (!survey) return tl::unexpected(survey.error());
-  const std::vector<Drawing> drawings = drawings_of(*survey, settings);
+  const std::vector<BlurredImage> images = blurred_images(*survey, settings);
   if (context.cancelled()) return interrupted();
   const double survey_ms = ms_since(start);
 
   AreaPainter painter(draw, {lens, *plan, settings, cache}, context);
-  for (std::size_t k = 0; k < drawings.size(); ++k) {
-    if (const auto painted = painter.paint(drawings[k], survey->peak); !painted) return tl::unexpected(painted.error());
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    if (const auto painted = painter.paint(images[k], survey->peak); !painted) return tl::unexpected(painted.error());
     if (context.cancelled()) return interrupted();
-    if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(drawings.size()));
+    if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(images.size()));
   }
   Flare flare = std::move(painter).finish(survey_ms);
   count_first(flare.statistics, "plan", plan_ms);

@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <numbers>
 
-#include "render/area_lights/layers.h"
+#include "render/area_lights/image_pyramid.h"
 
 namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kRadiusPixels = 2.5;  // radius of a blur in pixels of its level, for ghosts larger than the blur
 constexpr double kSpotPixels = 6.0;    // the same for much smaller ghosts, which show the light's shape
-constexpr double kLeastPixels = 1.25;  // the least, whatever the error
+constexpr double kMinPixels = 1.25;  // the least, whatever the error
 constexpr double kLongest = 30.0;      // largest longer radius, whatever the shorter one is
 
 int level_of_width(double px) { return px < 1.0 ? 0 : std::min(static_cast<int>(std::log2(px)), kLevels - 1); }
@@ -38,27 +38,28 @@ double coarse_edge_error(double u) {
 }
 
 // The larger one of ghost and blur gives the shape, and the smaller one the width of its soft edge.
-double softness_px(const BlurredGhost& g) { return std::max(std::min(g.blur_px.x, g.size_px.x), 1e-3); }
+double edge_width_px(const BlurredGhost& g) { return std::max(std::min(g.blur_px.x, g.size_px.x), 1e-3); }
 
 double outline_px(const BlurredGhost& g) {
   return std::numbers::pi * (g.blur_px.x + g.blur_px.y + g.size_px.x + g.size_px.y);
 }
 
-// Limits errors smoothly, since those above the peak do not count: to `most`.
-double clipped(double squares, double most) { return squares > 0.0 ? squares / (1.0 + squares / most) : 0.0; }
+// Limits errors smoothly, since those above the peak do not count: to `limit`.
+double clipped(double squares, double limit) { return squares > 0.0 ? squares / (1.0 + squares / limit) : 0.0; }
 
 }  // namespace
 
 // The error of blurring by a disc of another radius: 0.11 is the integral of u^2 S'(u)^2 over S, a disc's mean across.
 // An edge much sharper than the difference is displaced by it.
-double misfit_error(double height, double softness_px, double off_px) {
+double misfit_error(double height, double edge_width_px, double displacement_px) {
   constexpr double kByWidth = 0.108;
-  return clipped(height * height * off_px * std::min(kByWidth * off_px / softness_px, 0.5), off_px);
+  return clipped(height * height * displacement_px * std::min(kByWidth * displacement_px / edge_width_px, 0.5),
+                 displacement_px);
 }
 
 double level_error(const BlurredGhost& g, int level) {
   const double width = std::exp2(level);
-  return outline_px(g) * clipped(g.level * g.level * width * coarse_edge_error(softness_px(g) / width), width);
+  return outline_px(g) * clipped(g.level * g.level * width * coarse_edge_error(edge_width_px(g) / width), width);
 }
 
 double pixel_error(const BlurredGhost& g) {
@@ -78,7 +79,7 @@ std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_
   std::vector<Step> steps;
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
     levels.push_back(safe_level(ghosts[g]));
-    const int coarsest = level_of_width(ghosts[g].blur_px.x / kLeastPixels);
+    const int coarsest = level_of_width(ghosts[g].blur_px.x / kMinPixels);
     for (int level = levels[g] + 1; level <= coarsest; ++level)
       steps.push_back({g, level, level_error(ghosts[g], level)});
   }

@@ -26,8 +26,9 @@ struct BlurredGhost {
 // The error of the frame's own pixels. A kernel that spans few of them has the right width, but not the right shape.
 [[nodiscard]] double pixel_error(const BlurredGhost& ghost);
 
-// The error for a pixel's length of an edge with this height over the peak, whose blur's radius is off by `off_px`.
-[[nodiscard]] double misfit_error(double height, double softness_px, double off_px);
+// The error for a pixel's length of an edge with this height over the peak, whose blur's radius is off by
+// `displacement_px`.
+[[nodiscard]] double misfit_error(double height, double edge_width_px, double displacement_px);
 
 // The levels of all ghosts (layers.h): fine enough to be safe, and coarser for as many ghosts as together make no more
 // error than `allowed_squares`.

@@ -53,13 +53,13 @@ KernelRows rows_of(const Kernel& kernel) {
 }
 
 // The largest second difference for which an image counts as linear, so that the kernel leaves it unchanged to within
-// `unseen`; negative for a kernel that displaces the image or does not preserve its flux.
-float roughest_second_difference(const Kernel& kernel, double unseen) {
-  constexpr double kBeside = 1e-6;
+// `negligible_level`; negative for a kernel that displaces the image or does not preserve its flux.
+float roughest_second_difference(const Kernel& kernel, double negligible_level) {
+  constexpr double kTolerance = 1e-6;
   Rgb sum{}, x{}, y{}, squares{};
   for (std::size_t k = 0; k < kernel.weight.size(); ++k) {
     const int column = static_cast<int>(k) % kernel.width(), row = static_cast<int>(k) / kernel.width();
-    const double dx = column - kernel.reach.left, dy = row - kernel.reach.up;
+    const double dx = column - kernel.extent.left, dy = row - kernel.extent.up;
     for (std::size_t c = 0; c < 3; ++c) {
       const double w = kernel.weight[k][c];
       sum[c] += w;
@@ -70,10 +70,10 @@ float roughest_second_difference(const Kernel& kernel, double unseen) {
   }
   double widest = 1.0;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (std::abs(sum[c] - 1.0) + std::abs(x[c]) + std::abs(y[c]) > kBeside) return -1.0F;
+    if (std::abs(sum[c] - 1.0) + std::abs(x[c]) + std::abs(y[c]) > kTolerance) return -1.0F;
     widest = std::max(widest, squares[c]);
   }
-  return static_cast<float>(unseen / widest);
+  return static_cast<float>(negligible_level / widest);
 }
 
 // Flags of blocks of kBlock pixels of a row, a bit for each.
@@ -107,7 +107,7 @@ class BlockMarks {
 // The blocks of a row of the sum, by what the kernel reads for them from one row of the picture.
 struct RowBlocks {
   BlockMarks lit;    // any light
-  BlockMarks rough;  // light that is not linear
+  BlockMarks curved;  // light that is not linear
 };
 
 std::size_t blocks_of(std::size_t floats) { return (floats + kBlockFloats - 1) / kBlockFloats; }
@@ -121,26 +121,26 @@ BlockMarks lit_blocks(std::span<const float> row) {
   return lit;
 }
 
-// The lit blocks in which second differences exceed `most`; all lit blocks at the picture's border are included.
-BlockMarks rough_blocks(const Image& picture, int y, const BlockMarks& lit, float most) {
-  BlockMarks rough(lit);
-  if (most < 0.0F || y == 0 || y + 1 == picture.height) return rough;
+// The lit blocks in which second differences exceed `threshold`; all lit blocks at the picture's border are included.
+BlockMarks curved_blocks(const Image& picture, int y, const BlockMarks& lit, float threshold) {
+  BlockMarks curved(lit);
+  if (threshold < 0.0F || y == 0 || y + 1 == picture.height) return curved;
   const float *const above = picture.row(y - 1).data(), *const here = picture.row(y).data(),
                      *const below = picture.row(y + 1).data();
   for (std::size_t b = 1; b + 1 < blocks_of(picture.row(y).size()); ++b) {
     const std::size_t at = b * kBlockFloats;
-    if (lit.test(b) && !is_rough(above + at, here + at, below + at, most)) rough.reset(b);
+    if (lit.test(b) && !is_curved(above + at, here + at, below + at, threshold)) curved.reset(b);
   }
-  return rough;
+  return curved;
 }
 
-RowBlocks row_blocks(const Image& picture, int y, float most, int kernel_width) {
+RowBlocks row_blocks(const Image& picture, int y, float threshold, int kernel_width) {
   const auto reached = static_cast<std::size_t>((kBlock + kernel_width - 2) / kBlock);  // read by a block's sums
   RowBlocks blocks;
   blocks.lit = lit_blocks(picture.row(y));
-  if (blocks.lit.any()) blocks.rough = rough_blocks(picture, y, blocks.lit, most);
+  if (blocks.lit.any()) blocks.curved = curved_blocks(picture, y, blocks.lit, threshold);
   blocks.lit.spread_back(reached);
-  blocks.rough.spread_back(reached);
+  blocks.curved.spread_back(reached);
   return blocks;
 }
 
@@ -176,14 +176,14 @@ void add_pixel(const std::vector<Meeting>& meetings, int x, const KernelRows& ke
 
 }  // namespace
 
-void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kernel, double unseen,
+void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kernel, double negligible_level,
               const Context& context) {
   const Image& picture = part.image;
   const KernelRows rows = rows_of(kernel);
   assert(part.left >= 0 && part.left + picture.width <= to.width + rows.width - 1);
   assert(part.top >= 0 && part.top + picture.height <= to.height + rows.height - 1);
   std::vector<RowBlocks> blocks(static_cast<std::size_t>(picture.height));
-  const float roughest = roughest_second_difference(kernel, unseen);
+  const float roughest = roughest_second_difference(kernel, negligible_level);
   parallel_for(blocks.size(), context,
                [&](std::size_t at) { blocks[at] = row_blocks(picture, static_cast<int>(at), roughest, rows.width); });
   const int width = picture.width - rows.width + 1;  // of the sum, as far as the part determines it
@@ -200,18 +200,18 @@ void convolve(Image& to, ConvolveMode mode, PicturePart part, const Kernel& kern
       if (!source.lit.any()) continue;
       meetings.push_back({picture.row(from).data(), &source.lit, &row});
       together.lit.add(source.lit);
-      together.rough.add(source.rough);
+      together.curved.add(source.curved);
     }
     if (meetings.empty()) return;
     std::vector<BlockTerm> terms;
     float* const out = to_row.data() + 3 * static_cast<std::ptrdiff_t>(part.left);
     const float* const straight =
-        picture.row(y + kernel.reach.down).data() + 3 * static_cast<std::ptrdiff_t>(kernel.reach.right);
+        picture.row(y + kernel.extent.down).data() + 3 * static_cast<std::ptrdiff_t>(kernel.extent.right);
     int x = 0;
     for (; x + kBlock <= width; x += kBlock) {
       const auto b = static_cast<std::size_t>(x / kBlock);
       const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(x);
-      if (together.rough.test(b))
+      if (together.curved.test(b))
         add_at(meetings, x, rows, terms, out + first);
       else if (together.lit.test(b))
         for (std::size_t k = 0; k < kBlockFloats; ++k) out[first + k] += straight[first + k];

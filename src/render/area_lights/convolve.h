@@ -22,8 +22,8 @@ struct PicturePart {
 // times the picture's pixel (x - dx, y - dy). The picture is larger than `to` by the kernel's reach: its pixel (0, 0)
 // is (-reach.right, -reach.down). If only a part of the picture is given, all light is at least the kernel's width or
 // height, minus a pixel, from the part's sides, except where the picture itself ends. Zeros cost no time, and linear
-// regions little: where the sum equals its central pixel to within about `unseen`, that pixel may be used.
-void convolve(Image& to, ConvolveMode mode, PicturePart picture, const Kernel& kernel, double unseen,
+// regions little: where the sum equals its central pixel to within about `negligible_level`, that pixel may be used.
+void convolve(Image& to, ConvolveMode mode, PicturePart picture, const Kernel& kernel, double negligible_level,
               const Context& context);
 
 }  // namespace contrejour::inline internal::area

@@ -23,17 +23,17 @@ bool has_light(const float* block) {
   return !hn::AllTrue(du, hn::Eq(bits, hn::Zero(du)));
 }
 
-bool is_rough(const float* above, const float* block, const float* below, float most) {
+bool is_curved(const float* above, const float* block, const float* below, float threshold) {
   const Tag d;
-  const auto limit = hn::Set(d, most);
-  auto rough = hn::Zero(d);
+  const auto limit = hn::Set(d, threshold);
+  auto curved = hn::Zero(d);
   for (std::size_t k = 0; k < kBlockFloats; k += hn::Lanes(d)) {
     const auto twice = hn::Add(hn::LoadU(d, block + k), hn::LoadU(d, block + k));
     const auto second = [&](const float* a, const float* b)
                             HWY_ATTR { return hn::Abs(hn::Sub(hn::Add(hn::LoadU(d, a), hn::LoadU(d, b)), twice)); };
-    rough = hn::Max(rough, hn::Max(second(block + k - 3, block + k + 3), second(above + k, below + k)));
+    curved = hn::Max(curved, hn::Max(second(block + k - 3, block + k + 3), second(above + k, below + k)));
   }
-  return !hn::AllTrue(d, hn::Le(rough, limit));
+  return !hn::AllTrue(d, hn::Le(curved, limit));
 }
 
 // Adds half a block at a time, in three vectors of up to 8 with one pattern of weights each, so that sums stay in
@@ -100,14 +100,14 @@ HWY_AFTER_NAMESPACE();
 namespace contrejour::inline internal::area {
 
 HWY_EXPORT(has_light);
-HWY_EXPORT(is_rough);
+HWY_EXPORT(is_curved);
 HWY_EXPORT(add_block);
 HWY_EXPORT(add_coloured_block);
 
 bool has_light(const float* block) { return HWY_DYNAMIC_DISPATCH(has_light)(block); }
 
-bool is_rough(const float* above, const float* block, const float* below, float most) {
-  return HWY_DYNAMIC_DISPATCH(is_rough)(above, block, below, most);
+bool is_curved(const float* above, const float* block, const float* below, float threshold) {
+  return HWY_DYNAMIC_DISPATCH(is_curved)(above, block, below, threshold);
 }
 
 void add_block(std::span<const BlockTerm> terms, float* to) {

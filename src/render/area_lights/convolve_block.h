@@ -19,9 +19,9 @@ struct BlockTerm {
 
 // Whether any of a block's values is not 0.
 [[nodiscard]] bool has_light(const float* block);
-// Whether any second difference of a block, along a row or across rows, exceeds `most`. The block has a pixel before
-// and after it.
-[[nodiscard]] bool is_rough(const float* above, const float* block, const float* below, float most);
+// Whether any second difference of a block, along a row or across rows, exceeds `threshold`. The block has a pixel
+// before and after it.
+[[nodiscard]] bool is_curved(const float* above, const float* block, const float* below, float threshold);
 
 void add_block(std::span<const BlockTerm> terms, float* to);  // one weight for all channels
 void add_coloured_block(std::span<const BlockTerm> terms, float* to);  // a weight for each channel

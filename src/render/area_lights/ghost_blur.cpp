@@ -10,12 +10,12 @@
 namespace contrejour::inline internal::area {
 namespace {
 
-constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur looks no different
+constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur makes no visible difference
 constexpr int kPeakCells = 40;        // across the frame: cells in which overlapping ghosts are summed
 constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest lines over its mean, at most
 constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
-constexpr int kFits = 3;              // rounds; each weights features by the errors that the one before leaves
-constexpr double kOfMiddle = 0.02;    // weight relative to all features, for directions that none constrains
+constexpr int kFits = 3;              // rounds; each weights lines by the errors that the one before leaves
+constexpr double kOfMiddle = 0.02;    // weight relative to all lines, for directions that none constrains
 
 // Converts sensor mm to pixels: x is mirrored.
 Vec2 mirrored(Vec2 v) { return {-v.x, v.y}; }
@@ -35,33 +35,33 @@ double inside_px(const Frame& frame, Vec2 px) {
   return std::min({px.x, px.y, frame.width - px.x, frame.height - px.y});
 }
 
-// The error of a feature's blur, as a radius.
-double off_px(const BlurFeature& f, const LinearMap& px, const LightPiece& piece) {
+// The error of a line's blur, as a radius.
+double displacement_px(const BlurredLine& f, const LinearMap& px, const LightPiece& piece) {
   const Vec2 made = along(f.normal, px);
-  if (!piece.is_even) return 2.0 * std::sqrt(std::max(variance(f.shift_px - made, piece.covariance), 0.0));
+  if (!piece.is_symmetric) return 2.0 * std::sqrt(std::max(variance(f.shift_px - made, piece.covariance), 0.0));
   return 2.0 * std::abs(std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0)) -
                         std::sqrt(std::max(variance(made, piece.covariance), 0.0)));
 }
 
-double softness_px(const GhostBlur& ghost, const BlurFeature& f, const LightPiece& piece) {
+double edge_width_px(const GhostBlur& ghost, const BlurredLine& f, const LightPiece& piece) {
   const double radius = 2.0 * std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0));
   return std::max(std::min(radius, ghost.size_px.x), 1e-3);
 }
 
-double weight_of(const GhostBlur& ghost, const BlurFeature& f, const LightPiece& piece) {
-  return f.height * f.height * f.length_px / softness_px(ghost, f, piece);
+double weight_of(const GhostBlur& ghost, const BlurredLine& f, const LightPiece& piece) {
+  return f.height * f.height * f.length_px / edge_width_px(ghost, f, piece);
 }
 
-// The map whose rows along all normals are closest to the features' own: least squares, with weights for which large
-// errors grow only linearly in off_px.
+// The map whose rows along all normals are closest to the lines' own: least squares, with weights for which large
+// errors grow only linearly in displacement_px.
 LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& middle) {
   LinearMap best = middle;
   for (int fit = 0; fit < kFits; ++fit) {
-    LinearMap squares = kNowhere, sums = kNowhere;  // sums: columns by the tangent
+    LinearMap squares = kZeroMap, sums = kZeroMap;  // sums: columns by the tangent
     double all = 0.0;
-    for (const BlurFeature& f : ghost.features) {
-      const double off = off_px(f, best, piece), soft = softness_px(ghost, f, piece);
-      const double w = weight_of(ghost, f, piece) / (1.0 + off / soft);
+    for (const BlurredLine& f : ghost.lines) {
+      const double off = displacement_px(f, best, piece), width = edge_width_px(ghost, f, piece);
+      const double w = weight_of(ghost, f, piece) / (1.0 + off / width);
       all += w;
       squares = squares + LinearMap{f.normal * (w * f.normal.x), f.normal * (w * f.normal.y)};
       sums = sums + LinearMap{f.normal * (w * f.shift_px.x), f.normal * (w * f.shift_px.y)};
@@ -73,8 +73,8 @@ LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const Lin
   return best;
 }
 
-// For lights that look the same from both sides only the width of the blur counts, which would be lost in a mean of
-// opposite motions. This fits the covariance that has the features' variances along their normals, and returns a map
+// For lights that are the same from both sides only the width of the blur counts, which would be lost in a mean of
+// opposite motions. This fits the covariance that has the lines' variances along their normals, and returns a map
 // that produces it.
 LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& through) {
   std::array<std::array<double, 4>, 3> m{};  // unknowns xx, xy, yy of the covariance, and the right side
@@ -87,7 +87,7 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
     }
   };
   double all = 0.0;
-  for (const BlurFeature& f : ghost.features) {
+  for (const BlurredLine& f : ghost.lines) {
     const double wanted = variance(f.shift_px, piece.covariance);
     const double w = weight_of(ghost, f, piece) / std::max(wanted, 1e-6);  // errors of squared radii are twice as large
     add(f.normal, wanted, w);
@@ -107,32 +107,32 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   const LinearMap light = square_root(piece.covariance);
   if (!(light.determinant() > 0.0) || !std::isfinite(root.x.x + root.x.y + root.y.y)) return through;
   // Rotated as the other map rotates the light: the rotation, or reflection, nearest to that map.
-  const LinearMap turn = through * light, stretch = square_root(transposed(turn) * turn);
-  const bool can_turn = std::abs(stretch.determinant()) > 1e-9 * trace_of(stretch) * trace_of(stretch);
-  return (can_turn ? root * turn * inverse(stretch) : root) * inverse(light);
+  const LinearMap map = through * light, stretch = square_root(transposed(map) * map);
+  const bool can_rotate = std::abs(stretch.determinant()) > 1e-9 * trace_of(stretch) * trace_of(stretch);
+  return (can_rotate ? root * map * inverse(stretch) : root) * inverse(light);
 }
 
-// Sets the features that reach the frame.
-void set_features(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
+// Sets the lines that reach the frame.
+void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
   const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
-  const auto border = std::ranges::count_if(motion.features, &GhostFeature::is_border);
-  const auto inside = static_cast<std::ptrdiff_t>(motion.features.size()) - border;
+  const auto border = std::ranges::count_if(motion.lines, &GhostLine::is_border);
+  const auto inside = static_cast<std::ptrdiff_t>(motion.lines.size()) - border;
   const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
-  const double mean = ghost.flux / std::max(ghost_px, 1.0), most = kBrightest * ghost.flux / ghost.area_px;
-  // Each border feature stands for an equal part of the outline.
-  const double apart_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
-  for (const GhostFeature& f : motion.features) {
+  const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
+  // Each border line stands for an equal part of the outline.
+  const double spacing_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
+  for (const GhostLine& f : motion.lines) {
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
-    const double share = std::clamp(0.5 + within_px / apart_px, 0.0, 1.0);
-    if (share == 0.0) continue;
-    BlurFeature px;
+    const double visible = std::clamp(0.5 + within_px / spacing_px, 0.0, 1.0);
+    if (visible == 0.0) continue;
+    BlurredLine px;
     px.normal = mirrored(f.normal);
     px.at_px = frame.pixel_from_sensor(f.at_mm + shift_mm);
     px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
     const double density = f.density * value;
-    px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), most);
-    px.length_px = share * outline_px / static_cast<double>(f.is_border ? border : inside);
-    ghost.features.push_back(px);
+    px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), largest);
+    px.length_px = visible * outline_px / static_cast<double>(f.is_border ? border : inside);
+    ghost.lines.push_back(px);
   }
 }
 
@@ -160,15 +160,15 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   const LinearMap middle = pixels_from(motion.shift_mm, frame.pixel_pitch_mm);
   const LinearMap spread = pixels_from(motion.spread_mm, frame.pixel_pitch_mm);
   ghost.size_px = radii_of(spread * transposed(spread) * 0.25);
-  ghost.at_px = frame.pixel_from_sensor(motion.at_mm + shift_mm);
+  ghost.at_px = frame.pixel_from_sensor(motion.centroid_mm + shift_mm);
   ghost.flux = motion.flux_mm2 * value / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
   ghost.px = middle;
   set_blur(ghost, piece, frame);
-  set_features(ghost, motion, frame, shift_mm, value);
+  set_lines(ghost, motion, frame, shift_mm, value);
   ghost.px = map_through(ghost, piece, middle);
   ghost.motion_px = ghost.px;
-  if (piece.is_even) ghost.px = map_as_wide(ghost, piece, ghost.px);
-  // A disc looks the same rotated and mirrored, so that the map's symmetric factor is sufficient.
+  if (piece.is_symmetric) ghost.px = map_as_wide(ghost, piece, ghost.px);
+  // A disc is the same rotated and mirrored, so that the map's symmetric factor is sufficient.
   if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
   set_blur(ghost, piece, frame);
   // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
@@ -180,15 +180,16 @@ GhostBlur softened(GhostBlur ghost, const LightPiece& piece) {
   const LinearMap root = square_root(piece.covariance);
   ghost.px = ghost.px * root;
   ghost.px = square_root(ghost.px * transposed(ghost.px));
-  for (BlurFeature& f : ghost.features) f.shift_px = root(f.shift_px);
+  for (BlurredLine& f : ghost.lines) f.shift_px = root(f.shift_px);
   return ghost;
 }
 
 double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak) {
   if (!(ghost.level > 0.0) || !(peak > 0.0)) return 0.0;
   double squares = 0.0;
-  for (const BlurFeature& f : ghost.features)
-    squares += f.length_px * misfit_error(f.height / peak, softness_px(ghost, f, piece), off_px(f, px, piece));
+  for (const BlurredLine& f : ghost.lines)
+    squares +=
+        f.length_px * misfit_error(f.height / peak, edge_width_px(ghost, f, piece), displacement_px(f, px, piece));
   return squares;
 }
 
@@ -210,7 +211,7 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
               ghost.level;
   }
   const auto nth =
-      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakShare) * static_cast<double>(sums.size() - 1));
+      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakFraction) * static_cast<double>(sums.size() - 1));
   std::nth_element(sums.begin(), nth, sums.end());
   // For spots smaller than such a cell: the level of the brightest ghosts that together fill that fraction of the
   // frame.
@@ -218,7 +219,7 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   for (const GhostBlur& ghost : ghosts)
     if (ghost.level > 0.0) by_level.emplace_back(ghost.level, ghost.area_px);
   std::ranges::stable_sort(by_level, [](const auto& a, const auto& b) { return a.first > b.first; });
-  double left_px = kPeakShare * frame.width * frame.height, brightest = 0.0;
+  double left_px = kPeakFraction * frame.width * frame.height, brightest = 0.0;
   for (const auto& [level, area_px] : by_level) {
     brightest = level;
     left_px -= area_px;

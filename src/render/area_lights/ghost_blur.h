@@ -12,8 +12,8 @@
 
 namespace contrejour::inline internal::area {
 
-// A GhostFeature in pixels of the frame.
-struct BlurFeature {
+// A GhostLine in pixels of the frame.
+struct BlurredLine {
   Vec2 normal, at_px;
   Vec2 shift_px;  // along the normal, for a unit of each tangent
   double height = 0.0;  // largest difference of level across the blurred line; pixel values
@@ -21,14 +21,14 @@ struct BlurFeature {
 };
 
 struct GhostBlur {
-  LinearMap px = kNowhere;  // from tangents to pixels of the frame: the map that fits its features best
-  LinearMap motion_px = kNowhere;  // the same with the map's rotation, where `px` omits it
+  LinearMap px = kZeroMap;  // from tangents to pixels of the frame: the map that fits its lines best
+  LinearMap motion_px = kZeroMap;  // the same with the map's rotation, where `px` omits it
   Vec2 blur_px, size_px;  // radii across the shorter and the longer axis: of the blur, and of the ghost
   Vec2 at_px;
   double area_px = 1.0;  // of the blurred ghost
   double level = 0.0;  // brightness of the blurred ghost, a pixel's value; 0: outside the frame
   double flux = 0.0;  // of the whole ghost, pixel values
-  std::vector<BlurFeature> features;
+  std::vector<BlurredLine> lines;
 
   // Relative to the picture's peak.
   [[nodiscard]] BlurredGhost over(double peak) const { return {blur_px, size_px, peak > 0.0 ? level / peak : 0.0}; }
@@ -45,8 +45,8 @@ struct GhostBlur {
 // discs and soft pieces only the width of the blur counts; for other pieces the map's rotation does, too.
 [[nodiscard]] double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak);
 
-// The level that the brightest kPeakShare of the frame reach, with ghosts as uniform discs.
-inline constexpr double kPeakShare = 0.002;
+// The level that the brightest kPeakFraction of the frame reach, with ghosts as uniform discs.
+inline constexpr double kPeakFraction = 0.002;
 [[nodiscard]] double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame);
 
 // The radii, across the shorter and the longer axis, of a uniform ellipse with that covariance: twice the standard

@@ -63,7 +63,7 @@ class Rays {
 
  private:
   [[nodiscard]] PacketPath path(const LensSteps& steps, Ghost ghost, Vec2 tangents) const {
-    return {steps, ghost, {{0.0, 0.0, z_mm_}, tangents == Vec2{} ? source_ : source_beside(source_, tangents)}};
+    return {steps, ghost, {{0.0, 0.0, z_mm_}, tangents == Vec2{} ? source_ : offset_source(source_, tangents)}};
   }
 
   void trace(std::size_t light, const std::vector<Vec2>& starts_mm) {
@@ -71,12 +71,13 @@ class Rays {
     const Vec2 origin_mm = starts_mm.front();
     path.start_from(origin_mm);
     count_ = starts_mm.size();
-    room_.resize((6 + 2 * kMaxStopCrossings + path.steps().size()) * count_);
+    fields_.resize((6 + 2 * kMaxStopCrossings + path.steps().size()) * count_);
     for (std::size_t k = 0; k < count_; ++k) {
       field(0)[k] = static_cast<float>(starts_mm[k].x - origin_mm.x);
       field(1)[k] = static_cast<float>(starts_mm[k].y - origin_mm.y);
     }
-    TracedArrays out{.sensor_x_mm = field(2), .sensor_y_mm = field(3), .transmission = field(4), .r_rel = field(5)};
+    TracedArrays out{
+        .sensor_x_mm = field(2), .sensor_y_mm = field(3), .transmission = field(4), .relative_height = field(5)};
     for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
       out.stop_x[c] = field(6 + 2 * c);
       out.stop_y[c] = field(7 + 2 * c);
@@ -107,14 +108,14 @@ class Rays {
     return ray;
   }
 
-  [[nodiscard]] float* field(std::size_t k) { return room_.data() + k * count_; }
+  [[nodiscard]] float* field(std::size_t k) { return fields_.data() + k * count_; }
 
   static constexpr std::size_t kRimsFrom = 6 + 2 * kMaxStopCrossings;
   LightSource source_;
   double z_mm_;
   std::array<PacketPath, 3> paths_;  // for the light, for one to its right, for one above
   std::size_t count_ = 0;
-  std::vector<float> room_;
+  std::vector<float> fields_;
   std::vector<std::size_t> nearest_rim_;
 };
 
@@ -138,7 +139,7 @@ class LocalMotion {
   // How the start moves with the light's direction, if the ray is to cross the stop at the same point.
   [[nodiscard]] LinearMap start_at_stop(std::size_t crossing) const {
     const LinearMap by_start = stop_by_start(crossing);
-    if (!std::isnormal(by_start.determinant())) return kNowhere;
+    if (!std::isnormal(by_start.determinant())) return kZeroMap;
     return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
            -1.0;
   }
@@ -166,10 +167,10 @@ class LocalMotion {
   LinearMap sensor_by_start, sensor_by_angle;
 
  private:
-  template <class Place>
-  [[nodiscard]] LinearMap derivative(std::size_t first, double step, const Place& place) const {
-    return {(place(rays_[first]) - place(rays_[0])) * (1.0 / step),
-            (place(rays_[first + 1]) - place(rays_[0])) * (1.0 / step)};
+  template <class At>
+  [[nodiscard]] LinearMap derivative(std::size_t first, double step, const At& at_point) const {
+    return {(at_point(rays_[first]) - at_point(rays_[0])) * (1.0 / step),
+            (at_point(rays_[first + 1]) - at_point(rays_[0])) * (1.0 / step)};
   }
 
   const RayFive& rays_;
@@ -179,28 +180,28 @@ class LocalMotion {
 Vec2 across(Vec2 v) { return {-v.y, v.x}; }
 
 // At the outline, only the motion along the normal counts: it follows whatever blocks the light there.
-std::optional<GhostFeature> border_feature(const LocalMotion& at, int which) {
+std::optional<GhostLine> border_line(const LocalMotion& at, int which) {
   const LocalMotion::Bound bound = at.bound(which);
   const double steepness = dot(bound.by_start, bound.by_start);
   const Vec2 edge = at.sensor_by_start(across(bound.by_start));
   if (!std::isnormal(steepness) || !(length(edge) > 0.0)) return std::nullopt;
   const Vec2 normal = across(edge) * (1.0 / length(edge));
   const double by_height = dot(normal, at.sensor_by_start(bound.by_start)) / steepness;
-  return GhostFeature{normal, along(normal, at.sensor_by_angle) - bound.by_angle * by_height, at.ray().sensor_mm,
-                      at.density(), true};
+  return GhostLine{normal, along(normal, at.sensor_by_angle) - bound.by_angle * by_height, at.ray().sensor_mm,
+                   at.density(), true};
 }
 
 // A caustic lies along the image of the direction that the map from the pupil hardly stretches.
-GhostFeature inner_feature(const LocalMotion& at, const LinearMap& shift) {
+GhostLine inner_line(const LocalMotion& at, const LinearMap& shift) {
   const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
-  const double turn = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
-  const Vec2 normal{-std::sin(turn), std::cos(turn)};
+  const double angle = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
+  const Vec2 normal{-std::sin(angle), std::cos(angle)};
   return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false};
 }
 
 // The motion of the whole pupil in the plane of the starts, fitted to its border by least squares.
 LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
-  LinearMap squares = kNowhere, sums = kNowhere;
+  LinearMap squares = kZeroMap, sums = kZeroMap;
   for (std::size_t k = 0; k < border.size(); ++k) {
     const LocalMotion::Bound bound = border[k].bound(bounds[k]);
     const double steepness = dot(bound.by_start, bound.by_start);
@@ -210,7 +211,7 @@ LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector
     sums = sums + LinearMap{m * (-bound.by_angle.x / steepness), m * (-bound.by_angle.y / steepness)};
   }
   const double trace = trace_of(squares);
-  if (!(squares.determinant() > 1e-3 * trace * trace)) return kNowhere;
+  if (!(squares.determinant() > 1e-3 * trace * trace)) return kZeroMap;
   return inverse(squares) * sums;
 }
 
@@ -229,19 +230,19 @@ Vec2 area_rate(const PupilShape& pupil, const std::vector<LocalMotion>& border, 
 void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, double area_mm2) {
   double light = 0.0;
   for (const LocalMotion& at : inside) {
-    motion.at_mm = motion.at_mm + at.ray().sensor_mm * at.ray().transmission;
+    motion.centroid_mm = motion.centroid_mm + at.ray().sensor_mm * at.ray().transmission;
     light += at.ray().transmission;
   }
-  motion.at_mm = motion.at_mm * (1.0 / light);
-  LinearMap covariance = kNowhere;
+  motion.centroid_mm = motion.centroid_mm * (1.0 / light);
+  LinearMap covariance = kZeroMap;
   const auto count = static_cast<double>(inside.size());
   for (const LocalMotion& at : inside) {
-    const Vec2 d = at.ray().sensor_mm - motion.at_mm;
-    const double share = at.ray().transmission / light;
+    const Vec2 d = at.ray().sensor_mm - motion.centroid_mm;
+    const double weight = at.ray().transmission / light;
     // Adds the spread of the light between these rays, by the local derivative of the map.
     const double part = area_mm2 / count / 12.0;
-    covariance = covariance + LinearMap{d * (d.x * share), d * (d.y * share)} +
-                 at.sensor_by_start * transposed(at.sensor_by_start) * (part * share);
+    covariance = covariance + LinearMap{d * (d.x * weight), d * (d.y * weight)} +
+                 at.sensor_by_start * transposed(at.sensor_by_start) * (part * weight);
   }
   motion.spread_mm = square_root(covariance * 4.0);
   motion.flux_mm2 = light / count * area_mm2;
@@ -256,7 +257,7 @@ GhostMotion blind_motion(const LocalMotion& at, const PupilShape& pupil, double 
   // Far from the stop, its coordinates may say nothing about the ray: the motion at a fixed point of the front is then
   // used.
   if (!(size(motion.shift_mm) <= kStrange * size(at.sensor_by_angle))) motion.shift_mm = at.sensor_by_angle;
-  motion.at_mm = at.ray().sensor_mm;
+  motion.centroid_mm = at.ray().sensor_mm;
   motion.spread_mm = at.sensor_by_start * std::sqrt(pupil.area_mm2);
   motion.flux_mm2 = at.ray().transmission * pupil.area_mm2 * cosine;
   return motion;
@@ -272,10 +273,11 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
   Rays rays(steps, ghost, source, window.z_mm);
   double step_mm = kRayStep * length(window.max_mm - window.min_mm);
   if (!pupil->is_open)
-    return blind_motion(LocalMotion(rays.around({pupil->at_mm}, step_mm).front(), step_mm), *pupil, source.direction.z);
+    return blind_motion(LocalMotion(rays.around({pupil->middle_mm}, step_mm).front(), step_mm), *pupil,
+                        source.direction.z);
   step_mm = std::min(step_mm, kPupilStep * std::sqrt(trace_of(pupil->covariance)));
 
-  std::vector<Vec2> starts_mm{pupil->at_mm};
+  std::vector<Vec2> starts_mm{pupil->middle_mm};
   starts_mm.insert(starts_mm.end(), pupil->inside_mm.begin(), pupil->inside_mm.end());
   for (const BorderRay& ray : pupil->border) starts_mm.push_back(ray.start_mm);
   const std::vector<RayFive> fives = rays.around(starts_mm, step_mm);
@@ -305,10 +307,10 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
   motion.flux_mm2 *= source.direction.z;
   motion.area_rate = area_rate(*pupil, border, bounds);
   for (std::size_t k = 0; k < border.size(); ++k)
-    if (const auto feature = border_feature(border[k], bounds[k])) motion.features.push_back(*feature);
-  for (const LocalMotion& at : inside) motion.features.push_back(inner_feature(at, shift_of(at)));
-  for (GhostFeature& feature : motion.features) feature.density *= source.direction.z;
-  std::erase_if(motion.features, [](const GhostFeature& f) {
+    if (const auto line = border_line(border[k], bounds[k])) motion.lines.push_back(*line);
+  for (const LocalMotion& at : inside) motion.lines.push_back(inner_line(at, shift_of(at)));
+  for (GhostLine& line : motion.lines) line.density *= source.direction.z;
+  std::erase_if(motion.lines, [](const GhostLine& f) {
     return !std::isfinite(f.density + f.shift_mm.x + f.shift_mm.y + f.normal.x + f.normal.y);
   });
   if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};

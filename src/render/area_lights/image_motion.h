@@ -8,7 +8,7 @@
 
 namespace contrejour::inline internal::area {
 
-// The motion in pixels right and down for lights a unit to the right and up (tangents, direction_beside); kNowhere
+// The motion in pixels right and down for lights a unit to the right and up (tangents, offset_direction); kZeroMap
 // where no light gets through.
 [[nodiscard]] LinearMap image_motion_px(const LensState& lens, const Frame& frame, const LightSource& source);
 

@@ -9,15 +9,15 @@
 namespace contrejour::inline internal::area {
 
 // The largest distances of a kernel's pixels from its middle.
-struct KernelReach {
+struct KernelExtent {
   int left = 0, right = 0, up = 0, down = 0;
 };
 
 struct Kernel {
-  KernelReach reach;
+  KernelExtent extent;
   std::vector<Rgb> weight;  // rows from the top; the weights of each channel sum to 1
-  [[nodiscard]] int width() const { return reach.left + reach.right + 1; }
-  [[nodiscard]] int height() const { return reach.up + reach.down + 1; }
+  [[nodiscard]] int width() const { return extent.left + extent.right + 1; }
+  [[nodiscard]] int height() const { return extent.up + extent.down + 1; }
 };
 
 // px_from_tangents: to pixels of the level for which the kernel is made. The shape is placed as points, each spread
@@ -28,6 +28,6 @@ struct Kernel {
                                  double spread = 0.0);
 
 // The bounds of a kernel, known before it is made.
-[[nodiscard]] KernelReach reach_of(const LightPiece& piece, const LinearMap& px_from_tangents);
+[[nodiscard]] KernelExtent extent_of(const LightPiece& piece, const LinearMap& px_from_tangents);
 
 }  // namespace contrejour::inline internal::area

@@ -11,7 +11,7 @@ namespace {
 constexpr int kDiscSide = 32;         // pixels across a disc,
 constexpr int kPieceSide = 12;        // or across a piece of it where these are more
 constexpr int kDiscSubsamples = 8;    // samples along a side of a pixel at its rim
-constexpr int kMostSamplesAcross = 64;  // of a piece
+constexpr int kMaxSamplesAcross = 64;  // of a piece
 
 // A uniform disc whose diameter is `side` pixels.
 Image disc(int side) {
@@ -45,8 +45,8 @@ struct Tents {
 
   [[nodiscard]] double at(int tent, double px) const {
     if (count == 1) return 1.0;
-    const double place = std::clamp(px / length * count - 0.5, 0.0, count - 1.0);
-    return std::max(0.0, 1.0 - std::abs(place - tent));
+    const double position = std::clamp(px / length * count - 0.5, 0.0, count - 1.0);
+    return std::max(0.0, 1.0 - std::abs(position - tent));
   }
 };
 
@@ -75,14 +75,14 @@ Vec2 centre(LightPiece& piece) {
   Vec2 mean;
   double weight = 0.0;
   for (const ShapeSample& s : piece.samples) {
-    mean = mean + s.at * total(s.share);
-    weight += total(s.share);
+    mean = mean + s.at * total(s.fraction);
+    weight += total(s.fraction);
   }
   mean = mean * (1.0 / weight);
-  LinearMap sum = kNowhere;
+  LinearMap sum = kZeroMap;
   for (ShapeSample& s : piece.samples) {
     s.at = s.at - mean;
-    const double w = total(s.share) / weight;
+    const double w = total(s.fraction) / weight;
     sum = sum + LinearMap{s.at * (w * s.at.x), s.at * (w * s.at.y)};
   }
   // The variance of each sample's square: a twelfth of its sides' squares.
@@ -102,15 +102,15 @@ LightPiece piece_of(const Light& light, const LightShape& shape, const Rgb& whol
     const double weight_y = down.at(row, y + 0.5);
     for (int x = 0; weight_y > 0.0 && x < shape.level.width; ++x) {
       const double weight = weight_y * across.at(column, x + 0.5);
-      Rgb share = level_at(shape.level, x, y);
-      const double of_all = total(share) / total(whole);
+      Rgb fraction = level_at(shape.level, x, y);
+      const double of_all = total(fraction) / total(whole);
       for (std::size_t c = 0; c < 3; ++c) {
-        share[c] = weight * (whole[c] > 0.0 ? share[c] / whole[c] : of_all);
-        sum[c] += share[c];
+        fraction[c] = weight * (whole[c] > 0.0 ? fraction[c] / whole[c] : of_all);
+        sum[c] += fraction[c];
       }
-      if (!(total(share) > 0.0)) continue;
+      if (!(total(fraction) > 0.0)) continue;
       const Vec2 from = Vec2{x + 0.5, y + 0.5} - shape.centre_px;
-      piece.samples.push_back({shape.right * from.x + shape.down * from.y, share});
+      piece.samples.push_back({shape.right * from.x + shape.down * from.y, fraction});
     }
   }
   if (piece.samples.empty()) return piece;
@@ -119,10 +119,10 @@ LightPiece piece_of(const Light& light, const LightShape& shape, const Rgb& whol
   piece.point = light;
   piece.point.radius_rad = 0.0;
   piece.point.shape = nullptr;
-  piece.point.direction = direction_beside(light.direction, middle);
+  piece.point.direction = offset_direction(light.direction, middle);
   for (std::size_t c = 0; c < 3; ++c) piece.point.value[c] = light.value[c] * sum[c];
   for (ShapeSample& s : piece.samples)
-    for (std::size_t c = 0; c < 3; ++c) s.share[c] = sum[c] > 0.0 ? s.share[c] / sum[c] : 0.0;
+    for (std::size_t c = 0; c < 3; ++c) s.fraction[c] = sum[c] > 0.0 ? s.fraction[c] / sum[c] : 0.0;
   return piece;
 }
 
@@ -134,12 +134,12 @@ LightPiece soft_piece() {
   Rgb sum{};
   for (int k = 0; k < kSide * kSide; ++k) {
     const double u = (k % kSide + 0.5) * 2.0 / kSide - 1.0, v = (k / kSide + 0.5) * 2.0 / kSide - 1.0;
-    const double share = (1.0 - std::abs(u)) * (1.0 - std::abs(v));
-    piece.samples.push_back({{u, v}, {share, share, share}});
-    for (double& s : sum) s += share;
+    const double fraction = (1.0 - std::abs(u)) * (1.0 - std::abs(v));
+    piece.samples.push_back({{u, v}, {fraction, fraction, fraction}});
+    for (double& s : sum) s += fraction;
   }
   for (ShapeSample& s : piece.samples)
-    for (std::size_t c = 0; c < 3; ++c) s.share[c] /= sum[c];
+    for (std::size_t c = 0; c < 3; ++c) s.fraction[c] /= sum[c];
   piece.right = {2.0 / kSide, 0.0};
   piece.down = {0.0, -2.0 / kSide};
   centre(piece);
@@ -148,14 +148,14 @@ LightPiece soft_piece() {
   piece.right = piece.right * scale;
   piece.down = piece.down * scale;
   piece.covariance = {};
-  piece.is_even = true;
+  piece.is_symmetric = true;
   return piece;
 }
 
 std::vector<LightPiece> pieces_of(const Light& light, int across) {
   std::vector<LightPiece> pieces;
   if (light.is_point()) {
-    pieces.push_back({light, {}, {}, {}, kNowhere, {}, true, true});
+    pieces.push_back({light, {}, {}, {}, kZeroMap, {}, true, true});
     return pieces;
   }
   const LightShape given = shape_of(light, across);
@@ -168,9 +168,9 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
     return std::max(1, static_cast<int>(std::ceil(across * side / longest - 1e-9)));
   };
   const int parts_x = parts(width), parts_y = parts(height);
-  const int by = std::max(given.level.width / (kMostSamplesAcross * parts_x),
-                          given.level.height / (kMostSamplesAcross * parts_y)) +
-                 1;
+  const int by =
+      std::max(given.level.width / (kMaxSamplesAcross * parts_x), given.level.height / (kMaxSamplesAcross * parts_y)) +
+      1;
   const LightShape shape = coarser(given, light.shape ? by : 1);
   const Rgb whole = channel_sums(shape.level);
   const Tents columns{parts_x, static_cast<double>(shape.level.width)};
@@ -180,7 +180,7 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
       LightPiece piece = piece_of(light, shape, whole, columns, column, rows, row);
       if (piece.samples.empty() || !(piece.point.direction.z > 0.0)) continue;
       piece.is_disc = !light.shape && parts_x == 1 && parts_y == 1;
-      piece.is_even = piece.is_disc || parts_x * parts_y > 1;
+      piece.is_symmetric = piece.is_disc || parts_x * parts_y > 1;
       pieces.push_back(std::move(piece));
     }
   }
@@ -189,7 +189,7 @@ std::vector<LightPiece> pieces_of(const Light& light, int across) {
     Light point = light;
     point.radius_rad = 0.0;
     point.shape = nullptr;
-    pieces.push_back({point, {}, {}, {}, kNowhere, {}, true, true});
+    pieces.push_back({point, {}, {}, {}, kZeroMap, {}, true, true});
   }
   return pieces;
 }

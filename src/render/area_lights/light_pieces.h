@@ -13,7 +13,7 @@ namespace contrejour::inline internal::area {
 // A small square of a piece. In each channel the fractions of all samples sum to 1.
 struct ShapeSample {
   Vec2 at;  // tangents from the piece's direction, x to the right, y up
-  Rgb share{};
+  Rgb fraction{};
 };
 
 struct LightPiece {
@@ -23,7 +23,7 @@ struct LightPiece {
   LinearMap covariance;  // of the light of the piece, about its middle
   Vec2 middle;           // relative to the light's direction
   bool is_disc = false;  // the same in every orientation
-  bool is_even = false;  // about the same from both sides: discs, and pieces that fade into neighbours
+  bool is_symmetric = false;  // about the same from both sides: discs, and pieces that fade into neighbours
 };
 
 // A substitute for a piece of any light of which only the width counts: a product of tents, with variance 1 along each

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
 constexpr double kFasterThanAngle = 3.0;  // assumed relative change of a motion per unit of angle (tangent)
-constexpr double kSquaresShare = 0.003;  // of the allowed error: smaller errors of a ghost are not examined
-constexpr double kFluxShare = 5e-4;  // of all flux: smaller errors of a ghost are not examined
+constexpr double kSquaresFraction = 0.003;  // of the allowed error: smaller errors of a ghost are not examined
+constexpr double kFluxFraction = 5e-4;  // of all flux: smaller errors of a ghost are not examined
 constexpr double kFluxAllowed = 0.004;  // of the flux of all ghosts
 constexpr double kKnownFlux = 0.004;  // of a ghost's flux: accuracy of measurements by grids of rays
 constexpr double kSpot_px = 40.0;  // radius
@@ -27,7 +27,7 @@ double outline_px(const GhostBlur& ghost) {
   return std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
 }
 
-double softness_px(const GhostBlur& ghost) { return std::max(std::min(ghost.blur_px.x, ghost.size_px.x), 1e-3); }
+double edge_width_px(const GhostBlur& ghost) { return std::max(std::min(ghost.blur_px.x, ghost.size_px.x), 1e-3); }
 
 double radius_of(const LightPiece& piece) { return radii_of(piece.covariance).y; }
 
@@ -38,21 +38,21 @@ double foreseen_flux(const GhostMotion& motion, const LightPiece& whole) {
 }
 
 // The weight of a level: errors above the peak do not count.
-double seen(double level) { return level / (1.0 + level); }
+double limited(double level) { return level / (1.0 + level); }
 
-double moved_error(const GhostBlur& ghost, double off_px, double peak) {
-  return outline_px(ghost) * misfit_error(ghost.level / peak, softness_px(ghost), off_px);
+double moved_error(const GhostBlur& ghost, double displacement_px, double peak) {
+  return outline_px(ghost) * misfit_error(ghost.level / peak, edge_width_px(ghost), displacement_px);
 }
 
-double dimmed_error(const GhostBlur& ghost, double share, double peak) {
-  const double off = share * seen(ghost.level / peak);
+double dimmed_error(const GhostBlur& ghost, double flux_change, double peak) {
+  const double off = flux_change * limited(ghost.level / peak);
   return off * off * ghost.area_px;
 }
 
 // How errors fall with the number of pieces across: as n^-3, measured as 9 dB for each doubling, and as n^-2 for the
 // flux.
 double left_of(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
-double flux_left_of(double flux_off, int across) { return flux_off / (static_cast<double>(across) * across); }
+double flux_left_of(double flux_error, int across) { return flux_error / (static_cast<double>(across) * across); }
 
 }  // namespace
 
@@ -60,11 +60,11 @@ bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const Are
   if (!ghost.motion.is_open)
     return ghost.motion.flux_mm2 > 0.0 && ghost.motion.outside < kOutside + kOutsideByAngle * radius_of(whole);
   if (!(ghost.blur.level > 0.0) || !(budget.peak > 0.0)) return false;
-  const double share = foreseen_flux(ghost.motion, whole);
-  if (share * ghost.blur.flux > kFluxShare * budget.flux) return true;
-  const double off_px = 0.5 * ghost.blur.blur_px.y * kFasterThanAngle * radius_of(whole);
-  return moved_error(ghost.blur, off_px, budget.peak) + dimmed_error(ghost.blur, share, budget.peak) >
-         kSquaresShare * budget.squares;
+  const double flux_change = foreseen_flux(ghost.motion, whole);
+  if (flux_change * ghost.blur.flux > kFluxFraction * budget.flux) return true;
+  const double displacement_px = 0.5 * ghost.blur.blur_px.y * kFasterThanAngle * radius_of(whole);
+  return moved_error(ghost.blur, displacement_px, budget.peak) + dimmed_error(ghost.blur, flux_change, budget.peak) >
+         kSquaresFraction * budget.squares;
 }
 
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak) {
@@ -87,20 +87,20 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
     lit += part.flux;
   }
   if (!ghost.motion.is_open) {
-    const double off = seen(level / peak);
+    const double off = limited(level / peak);
     ghost.squares = off * off * area_px;
-    ghost.flux_off = flux;
+    ghost.flux_error = flux;
     return;
   }
   const double whole_flux = ghost.blur.flux;
   const double off = std::max(std::abs(whole_flux - flux) - kKnownFlux * whole_flux, 0.0);
-  if (ghost.blur.level > 0.0 || level > 0.0) ghost.flux_off = off;
+  if (ghost.blur.level > 0.0 || level > 0.0) ghost.flux_error = off;
   GhostBlur bright = ghost.blur;
   bright.level = std::max(bright.level, level);
   ghost.squares += dimmed_error(bright, std::min(off / std::max(whole_flux, 1e-30), 1.0), peak);
   if (lit > 0.0) ghost.squares += moved_error(bright, 2.0 * std::sqrt(squares / lit), peak);
   // An upper bound: all light is displaced.
-  const double all = seen(bright.level / peak);
+  const double all = limited(bright.level / peak);
   ghost.squares = std::min(ghost.squares, 2.0 * all * all * bright.area_px);
 }
 
@@ -133,7 +133,7 @@ void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
   };
   refine(budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
   refine(kFluxAllowed * budget.flux,
-         [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_off, across); });
+         [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_error, across); });
 }
 
 }  // namespace contrejour::inline internal::area

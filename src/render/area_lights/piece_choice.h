@@ -20,7 +20,7 @@ struct GhostOfArea {
   std::vector<GhostMotion> part_motions;
   std::vector<GhostBlur> part_blurs;
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
-  double squares = 0.0, flux_off = 0.0;
+  double squares = 0.0, flux_error = 0.0;
   int across = 1;  // pieces of the light
 };
 
@@ -34,7 +34,7 @@ struct AreaBudget {
 // Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.
 [[nodiscard]] bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
 
-// Predicts `squares` and `flux_off`. parts: the pieces of the light divided in two across.
+// Predicts `squares` and `flux_error`. parts: the pieces of the light divided in two across.
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak);
 
 // Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.

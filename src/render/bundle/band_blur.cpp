@@ -9,12 +9,12 @@ namespace contrejour::inline internal::bundle {
 namespace {
 
 // A ghost that grows by more than this from band to band passes through a focus: only its centre is followed then.
-constexpr double kMostGrowth = 2.0;
+constexpr double kMaxGrowth = 2.0;
 
 double growth(double from, double to) {
   if (!(from > 0.0 && to > 0.0)) return 0.0;
   const double ratio = to / from;
-  return ratio < kMostGrowth && ratio > 1.0 / kMostGrowth ? ratio - 1.0 : 0.0;
+  return ratio < kMaxGrowth && ratio > 1.0 / kMaxGrowth ? ratio - 1.0 : 0.0;
 }
 
 struct HalfGap {
@@ -76,7 +76,7 @@ std::vector<std::optional<BandMotion>> band_motions(std::span<const std::optiona
   return motions;
 }
 
-double longest_way_px(const BandMotion& motion, const Frame& frame) {
+double longest_shift_px(const BandMotion& motion, const Frame& frame) {
   double longest = 0.0;
   for (const int x : {-frame.origin_x, frame.full_width - frame.origin_x}) {
     for (const int y : {-frame.origin_y, frame.full_height - frame.origin_y}) {

@@ -14,7 +14,7 @@
 namespace contrejour::inline internal::bundle {
 
 // With more bands than this the gaps are small, and no band is blurred.
-inline constexpr std::size_t kMostBlurredBands = 7;
+inline constexpr std::size_t kMaxBlurredBands = 7;
 
 // The displacement of a ghost's points from one band to its neighbours, from the ghosts' centres and sizes in both.
 struct BandMotion {
@@ -32,7 +32,7 @@ struct BandMotion {
                                                                   const Frame& frame);
 
 // The longest distance that flux moves from its pixel, anywhere in the full frame.
-[[nodiscard]] double longest_way_px(const BandMotion& motion, const Frame& frame);
+[[nodiscard]] double longest_shift_px(const BandMotion& motion, const Frame& frame);
 
 // Spreads every pixel's flux evenly over its line. The band is drawn with a border of `border` pixels around the frame;
 // light that leaves the frame is lost.

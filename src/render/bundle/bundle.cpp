@@ -9,8 +9,8 @@
 #include "base/tasks.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
+#include "render/planning/adaptive_passes.h"
 #include "render/planning/grid_side.h"
-#include "render/planning/passes_by_need.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -69,9 +69,9 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   if (const auto ok = check_grid(options.grid); !ok) return tl::unexpected(ok.error());
   const LensState& lens = planned.lens;
   const Frame& frame = planned.settings.frame;
-  const auto by_need = with_passes_by_need(planned.plan, lens, frame, context);
-  if (!by_need) return interrupted();
-  const FramePlan& plan = *by_need;
+  const auto with_passes = with_adaptive_passes(planned.plan, lens, frame, context);
+  if (!with_passes) return interrupted();
+  const FramePlan& plan = *with_passes;
   const auto bounds = bounds_for(plan, lens, options, context);
   StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
   if (!stops.prepare(plan, context)) return interrupted();

@@ -14,9 +14,10 @@ namespace contrejour::inline internal::bundle {
 
 using Triangle = std::array<std::size_t, 3>;  // vertices of a RayGrid
 
-// Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0). r_rel
-// and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight edge of the iris
-// cuts along a straight line; arcs are cut by tangents, whose number depends on the arc's angle within the triangle.
+// Clips in the triangle's own coordinates (u, v): vertex 0 + u (vertex 1 - vertex 0) + v (vertex 2 - vertex 0).
+// relative_height and the stop coordinates are interpolated linearly (hullin2011 4.1), so every rim and every straight
+// edge of the iris cuts along a straight line; arcs are cut by tangents, whose number depends on the arc's angle within
+// the triangle.
 class TriangleClipper {
  public:
   explicit TriangleClipper(const IrisShape& iris) : iris_(iris) {}
@@ -30,19 +31,19 @@ class TriangleClipper {
 
  private:
   void start(const RayGrid& grid, const Triangle& triangle);
-  void cut_by_pieces(const RayGrid& grid, const Triangle& triangle, double finest, int crossing, double open,
-                     const OpenPart& visit);
+  void clip_by_pieces(const RayGrid& grid, const Triangle& triangle, double finest, int crossing, double open,
+                      const OpenPart& visit);
   void cut(double at_0, double at_1, double at_2);
-  void cut_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing);
-  void cut_by_bound(const std::array<Vec2, 3>& stop, const IrisBound& bound);
-  void cut_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre, double radius);
-  void cut_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach);
+  void clip_by_iris(const RayGrid& grid, const Triangle& triangle, std::size_t crossing);
+  void clip_by_bound(const std::array<Vec2, 3>& stop, const IrisBound& bound);
+  void clip_by_circle(const std::array<Vec2, 3>& stop, Vec2 centre, double radius);
+  void clip_by_edge(const std::array<Vec2, 3>& stop, Vec2 normal, double reach);
 
   const IrisShape& iris_;
   std::vector<Vec2> polygon_, next_;
 };
 
 // The area of a polygon in (u, v) over that of the triangle.
-[[nodiscard]] double share_of_triangle(std::span<const Vec2> uv);
+[[nodiscard]] double fraction_of_triangle(std::span<const Vec2> uv);
 
 }  // namespace contrejour::inline internal::bundle

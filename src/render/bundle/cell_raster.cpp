@@ -18,7 +18,7 @@ constexpr double kShadedCell_px = 4.0;
 // If a polygon's area is below this fraction of its extent squared, it is mostly rounding error: the polygon is drawn
 // as a line.
 constexpr double kSliver = 1e-7;
-constexpr double kUnseenDetail_px = 0.3;
+constexpr double kInvisibleDetail_px = 0.3;
 constexpr int kRowsBetweenStops = 16;
 constexpr double kUniform = 1e-3;  // a stop pattern this close to 1 all over a cell is drawn as 1
 
@@ -51,9 +51,9 @@ Vec2 mean_of(std::span<const Vec2> p) {
   return sum * (1.0 / static_cast<double>(p.size()));
 }
 
-// The place of a pixel in a triangle, (u, v) from its first corner; for a pixel outside, the nearest place in these
+// The position of a pixel in a triangle, (u, v) from its first corner; for a pixel outside, the nearest point in these
 // coordinates.
-Vec2 place_in(const std::array<Vec2, 3>& p, Vec2 pixel) {
+Vec2 pixel_in_triangle(const std::array<Vec2, 3>& p, Vec2 pixel) {
   const Vec2 u = p[1] - p[0], v = p[2] - p[0], q = pixel - p[0];
   const double determinant = cross(u, v);
   if (determinant == 0.0) return {1.0 / 3.0, 1.0 / 3.0};
@@ -94,7 +94,7 @@ CellRaster::CellState CellRaster::state_of(const std::array<std::size_t, 4>& cor
   const auto all = [&](auto test) { return std::all_of(corners.begin(), corners.end(), test); };
   const float slack = grid_.slack(corners);
   if (all([&](std::size_t k) { return grid_.blocked[k] <= -slack; })) return CellState::Open;
-  if (all([&](std::size_t k) { return grid_.r_rel[k] > 1.0F; })) return CellState::Closed;
+  if (all([&](std::size_t k) { return grid_.relative_height[k] > 1.0F; })) return CellState::Closed;
   for (std::size_t c = 0; c < static_cast<std::size_t>(grid_.stop_crossings()); ++c) {
     if (all([&](std::size_t k) { return !(grid_.iris_distance[c][k] <= slack); })) return CellState::Closed;
   }
@@ -163,7 +163,7 @@ PixelBox CellRaster::drawn_box() const {
     for (int ix = 0; ix < n; ++ix) {
       if (state_[cell_index(ix, iy)] == CellState::Closed) continue;
       for (const std::size_t k : grid_.corners(ix, iy)) {
-        if (grid_.r_rel[k] == kFailed) continue;
+        if (grid_.relative_height[k] == kFailed) continue;
         low = {std::min(low.x, pixel_[k].x), std::min(low.y, pixel_[k].y)};
         high = {std::max(high.x, pixel_[k].x), std::max(high.y, pixel_[k].y)};
       }
@@ -197,7 +197,7 @@ double CellRaster::triangle_flux(const Triangle& t) const {
 }
 
 StopCrossings CellRaster::crossings_of(std::size_t vertex) const {
-  const auto in_lens = [&](Vec2 p) { return stop_.turn_rad != 0.0 ? turned(p, stop_.turn_rad) : p; };
+  const auto in_lens = [&](Vec2 p) { return stop_.rotation_rad != 0.0 ? rotated(p, stop_.rotation_rad) : p; };
   StopCrossings out;
   for (std::size_t c = 0; c < static_cast<std::size_t>(grid_.stop_crossings()); ++c)
     out.stop[c] = in_lens(Vec2{grid_.stop_x[c][vertex], grid_.stop_y[c][vertex]}) * stop_.transmittance.outer_radius();
@@ -211,7 +211,7 @@ StopCrossings CellRaster::crossings_of(std::size_t vertex) const {
 }
 
 // Finds what the stop transmits of a cell. If a ray has failed, the pattern counts as varying, and the cell as dirty.
-void CellRaster::look_at_stop(const std::array<std::size_t, 4>& corners) {
+void CellRaster::sample_stop_pattern(const std::array<std::size_t, 4>& corners) {
   const StopTransmittance& stop = stop_.transmittance;
   const auto crossings = static_cast<std::size_t>(grid_.stop_crossings());
   region_ = PatternRegion::Uniform;
@@ -233,8 +233,8 @@ void CellRaster::look_at_stop(const std::array<std::size_t, 4>& corners) {
   dirty_ = region_ != PatternRegion::Dark && !stop.is_clean(cell);
 }
 
-// What the stop pattern and, if wanted, dirt transmit about a place in a triangle, as the mean over a pixel or, if that
-// is smaller, the triangle; pixels: the triangle's area.
+// What the stop pattern and, if requested, dirt transmit about a point in a triangle, as the mean over a pixel or, if
+// that is smaller, the triangle; pixels: the triangle's area.
 double CellRaster::transmittance(const std::array<StopCrossings, 3>& triangle, Vec2 uv, double pixels,
                                  bool with_dirt) const {
   const StopTransmittance::Sample at{triangle, static_cast<std::size_t>(grid_.stop_crossings()), uv,
@@ -257,7 +257,7 @@ void CellRaster::draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const
     finest_mm = std::min(finest_mm, std::sqrt(std::abs(cross(views[c].along_x, views[c].along_y))));
   }
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
-  const auto transmitted_at = [&](Vec2 pixel) { return transmittance(rays, place_in(p, pixel), area, false); };
+  const auto transmitted_at = [&](Vec2 pixel) { return transmittance(rays, pixel_in_triangle(p, pixel), area, false); };
   shadows_.for_each(*stop.dirt->outlines(), {views.data(), crossings}, polygon, finest_mm,
                     [&](std::span<const Vec2> shadow, double blocked) {
                       const Density lost{density.point, -blocked * density.value, density.gradient * -blocked};
@@ -296,35 +296,39 @@ void CellRaster::draw_triangle(FluxBox& out, const Cell& cell, const Triangle& t
   clipper_.for_each_open_part(grid_, t, finest(p), [&](std::span<const Vec2> uv, double open) {
     corner_scratch_.clear();
     for (const Vec2 q : uv) corner_scratch_.push_back(p[0] + (p[1] - p[0]) * q.x + (p[2] - p[0]) * q.y);
-    draw_polygon(out, cell, t, corner_scratch_, share_of_triangle(uv), open);
+    draw_polygon(out, cell, t, corner_scratch_, fraction_of_triangle(uv), open);
   });
 }
 
 // The fraction of a triangle below which details of an opening are not resolved.
 double CellRaster::finest(const std::array<Vec2, 3>& p) {
   const double longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
-  return std::min(1.0, kUnseenDetail_px / std::max(longest, kUnseenDetail_px));
+  return std::min(1.0, kInvisibleDetail_px / std::max(longest, kInvisibleDetail_px));
 }
 
-// Draws a part of a triangle's image. share: the part's fraction of the triangle's flux; open: its transmittance.
+// Draws a part of a triangle's image. fraction: the part's fraction of the triangle's flux; open: its transmittance.
 void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon,
-                              double share, double open) {
+                              double fraction, double open) {
   const std::array<Vec2, 3> p{pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]};
   const double area = std::abs(signed_area(p[0], p[1], p[2]));
   const bool dirt_by_pixels = dirty_ && !has_outlines();
   const bool by_pixels = region_ == PatternRegion::Varying || dirt_by_pixels;
   const auto rays = by_pixels || dirty_ ? crossings_of(t) : std::array<StopCrossings, 3>{};
-  const auto transmitted_at = [&](Vec2 pixel) { return transmittance(rays, place_in(p, pixel), area, dirt_by_pixels); };
+  const auto transmitted_at = [&](Vec2 pixel) {
+    return transmittance(rays, pixel_in_triangle(p, pixel), area, dirt_by_pixels);
+  };
   ++primitives_;
   const double flux = triangle_flux(t) * open;
-  const auto mean_transmittance = [&] { return transmittance(rays, place_in(p, mean_of(polygon)), area, dirty_); };
+  const auto mean_transmittance = [&] {
+    return transmittance(rays, pixel_in_triangle(p, mean_of(polygon)), area, dirty_);
+  };
   if (in_one_pixel(polygon)) {
-    out.add_point(polygon[0], flux * share * mean_transmittance());
+    out.add_point(polygon[0], flux * fraction * mean_transmittance());
     return;
   }
   const auto ends = ends_of(polygon);
   if (area < kSliver * dot(ends[1] - ends[0], ends[1] - ends[0])) {
-    out.add_line(ends[0], ends[1], flux * share * mean_transmittance());
+    out.add_line(ends[0], ends[1], flux * fraction * mean_transmittance());
     return;
   }
   const double value = flux / area;
@@ -338,17 +342,18 @@ void CellRaster::draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t,
 }
 
 bool CellRaster::failed(std::span<const std::size_t> vertices) const {
-  return std::any_of(vertices.begin(), vertices.end(), [&](std::size_t k) { return grid_.r_rel[k] == kFailed; });
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](std::size_t k) { return grid_.relative_height[k] == kFailed; });
 }
 
 double CellRaster::open_flux(const Triangle& t, CellState state) {
   if (failed(t)) return 0.0;
   if (state == CellState::Open) return triangle_flux(t);
-  double share = 0.0;
+  double fraction = 0.0;
   const double detail = finest({pixel_[t[0]], pixel_[t[1]], pixel_[t[2]]});
-  clipper_.for_each_open_part(grid_, t, detail,
-                              [&](std::span<const Vec2> uv, double open) { share += share_of_triangle(uv) * open; });
-  return share * triangle_flux(t);
+  clipper_.for_each_open_part(
+      grid_, t, detail, [&](std::span<const Vec2> uv, double open) { fraction += fraction_of_triangle(uv) * open; });
+  return fraction * triangle_flux(t);
 }
 
 void CellRaster::draw_point(FluxBox& out, const Cell& cell, CellState state) {
@@ -383,7 +388,7 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;
       if (outside(out.box(), grid_.corners(ix, iy))) continue;
-      look_at_stop(grid_.corners(ix, iy));
+      sample_stop_pattern(grid_.corners(ix, iy));
       if (region_ == PatternRegion::Dark) continue;
       draw_cell(out, cell_at(ix, iy), state);
     }

@@ -11,7 +11,7 @@
 #include "contrejour/frame.h"
 #include "render/bundle/cell_clip.h"
 #include "render/bundle/flux_box.h"
-#include "render/stop_patterns/shadow_cutter.h"
+#include "render/stop_patterns/shadow_clipper.h"
 #include "render/stop_patterns/stop_transmittance.h"
 
 namespace contrejour::inline internal::bundle {
@@ -21,13 +21,13 @@ struct CellStyle {
   bool points = false;         // every cell's flux goes to the pixel of its middle: hullin2011 7.2
 };
 
-// What the stop transmits of the grid's ghost. light, entrance_z_mm: those of the grid. turn_rad rotates the grid's
+// What the stop transmits of the grid's ghost. light, entrance_z_mm: those of the grid. rotation_rad rotates the grid's
 // crossings of the stop and the front into the lens's orientation.
 struct GridStop {
   StopTransmittance transmittance;
   LightSource light;
   double entrance_z_mm = 0.0;
-  double turn_rad = 0.0;
+  double rotation_rad = 0.0;
 };
 
 class CellRaster {
@@ -71,12 +71,12 @@ class CellRaster {
   [[nodiscard]] std::array<StopCrossings, 3> crossings_of(const Triangle& t) const {
     return {crossings_of(t[0]), crossings_of(t[1]), crossings_of(t[2])};
   }
-  void look_at_stop(const std::array<std::size_t, 4>& corners);
+  void sample_stop_pattern(const std::array<std::size_t, 4>& corners);
   [[nodiscard]] bool has_outlines() const { return dirty_ && stop_.transmittance.dirt->outlines() != nullptr; }
   [[nodiscard]] double transmittance(const std::array<StopCrossings, 3>& triangle, Vec2 uv, double pixels,
                                      bool with_dirt) const;
   void draw_shadows(FluxBox& out, std::span<const Vec2> polygon, const Triangle& t, const Density& density);
-  void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double share,
+  void draw_polygon(FluxBox& out, const Cell& cell, const Triangle& t, std::span<const Vec2> polygon, double fraction,
                     double open);
   [[nodiscard]] static double finest(const std::array<Vec2, 3>& p);
   [[nodiscard]] std::size_t cell_index(int ix, int iy) const {
@@ -90,7 +90,7 @@ class CellRaster {
   // Those of the present cell: what the stop pattern is there, and whether dirt takes light.
   PatternRegion region_ = PatternRegion::Uniform;
   bool dirty_ = false;
-  stop_patterns::ShadowCutter shadows_;
+  stop_patterns::ShadowClipper shadows_;
   TriangleClipper clipper_;
   double triangle_weight_mm2_;  // flux of a triangle of transmittance 1
   std::vector<Vec2> pixel_;  // by vertex

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMaxSide = 62;
 constexpr std::size_t kPitch = kMaxSide + 2;
 
-constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding error outside a polygon
+constexpr float kNegligibleCoverage = 1e-6F;  // of a pixel: rounding error outside a polygon
 
 using Polygon = std::vector<Vec2>;
 
@@ -126,14 +126,14 @@ void add_row(float* cover, const RowSpan& span, int count, float* out, Ramp ramp
 }
 
 // The same row with a transmittance for each pixel.
-template <class Share>
-void add_shared_row(float* cover, int count, float* out, Ramp ramp, const Share& share) {
+template <class Transmittance>
+void add_shared_row(float* cover, int count, float* out, Ramp ramp, const Transmittance& transmittance) {
   float covered = 0.0F;
   for (int k = 0; k < count; ++k) {
     covered += cover[k];
     cover[k] = 0.0F;
-    if (covered > kUnseenCover)
-      out[k] += covered * (ramp.first + ramp.slope * static_cast<float>(k)) * static_cast<float>(share(k));
+    if (covered > kNegligibleCoverage)
+      out[k] += covered * (ramp.first + ramp.slope * static_cast<float>(k)) * static_cast<float>(transmittance(k));
   }
   cover[count] = 0.0F;
   cover[count + 1] = 0.0F;
@@ -173,35 +173,38 @@ void FluxBox::add_polygon(std::span<const Vec2> polygon, const Density& density)
   add_clipped(polygon, density, nullptr);
 }
 
-void FluxBox::add_polygon(std::span<const Vec2> polygon, const Density& density, const PixelShare& share) {
-  add_clipped(polygon, density, &share);
+void FluxBox::add_polygon(std::span<const Vec2> polygon, const Density& density,
+                          const PixelTransmittance& transmittance) {
+  add_clipped(polygon, density, &transmittance);
 }
 
-void FluxBox::add_clipped(std::span<const Vec2> polygon, const Density& density, const PixelShare* share) {
+void FluxBox::add_clipped(std::span<const Vec2> polygon, const Density& density,
+                          const PixelTransmittance* transmittance) {
   if (polygon.size() < 3) return;
   const Bounds b = bounds_of(polygon);
   if (!(b.high.x > box_.x0 && b.low.x < box_.x1 && b.high.y > box_.y0 && b.low.y < box_.y1)) return;
   const bool crosses = b.low.x < box_.x0 || b.low.y < box_.y0 || b.high.x > box_.x1 || b.high.y > box_.y1;
   if (!crosses) {
-    add_inside(polygon, density, share);
+    add_inside(polygon, density, transmittance);
     return;
   }
   Polygon part = clipped<&Vec2::x>(polygon, box_.x0, 1.0);
   part = clipped<&Vec2::x>(part, box_.x1, -1.0);
   part = clipped<&Vec2::y>(part, box_.y0, 1.0);
   part = clipped<&Vec2::y>(part, box_.y1, -1.0);
-  if (part.size() >= 3) add_inside(part, density, share);
+  if (part.size() >= 3) add_inside(part, density, transmittance);
 }
 
-void FluxBox::add_halves(std::span<const Vec2> polygon, const Density& density, const PixelShare* share,
+void FluxBox::add_halves(std::span<const Vec2> polygon, const Density& density, const PixelTransmittance* transmittance,
                          bool cut_columns, double at) {
   const Polygon low = cut_columns ? clipped<&Vec2::x>(polygon, at, -1.0) : clipped<&Vec2::y>(polygon, at, -1.0);
   const Polygon high = cut_columns ? clipped<&Vec2::x>(polygon, at, 1.0) : clipped<&Vec2::y>(polygon, at, 1.0);
-  if (low.size() >= 3) add_inside(low, density, share);
-  if (high.size() >= 3) add_inside(high, density, share);
+  if (low.size() >= 3) add_inside(low, density, transmittance);
+  if (high.size() >= 3) add_inside(high, density, transmittance);
 }
 
-void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density, const PixelShare* share) {
+void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density,
+                         const PixelTransmittance* transmittance) {
   const Bounds b = bounds_of(polygon);
   const int x0 = std::min(static_cast<int>(b.low.x), box_.x1 - 1);
   const int y0 = std::min(static_cast<int>(b.low.y), box_.y1 - 1);
@@ -210,14 +213,14 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density, 
   const double area = signed_area(polygon);
   if (x1 - x0 >= kMaxSide || y1 - y0 >= kMaxSide) {
     const bool columns = x1 - x0 > y1 - y0;
-    add_halves(polygon, density, share, columns, columns ? (x0 + x1 + 1) / 2 : (y0 + y1 + 1) / 2);
+    add_halves(polygon, density, transmittance, columns, columns ? (x0 + x1 + 1) / 2 : (y0 + y1 + 1) / 2);
     return;
   }
   const auto level = [&](int x, int y) {
     return density.value + dot(density.gradient, Vec2{x + 0.5, y + 0.5} - density.point);
   };
   if (x0 == x1 && y0 == y1) {
-    const double passed = share != nullptr ? (*share)({x0 + 0.5, y0 + 0.5}) : 1.0;
+    const double passed = transmittance != nullptr ? (*transmittance)({x0 + 0.5, y0 + 0.5}) : 1.0;
     flux_[index(x0, y0)] += static_cast<float>(std::abs(area) * level(x0, y0) * passed);
     return;
   }
@@ -231,11 +234,11 @@ void FluxBox::add_inside(std::span<const Vec2> polygon, const Density& density, 
     const auto row = static_cast<std::size_t>(y - y0);
     float* cover = cover_.data() + row * kPitch;
     const Ramp ramp{static_cast<float>(level(x0, y)), static_cast<float>(density.gradient.x)};
-    if (share == nullptr)
+    if (transmittance == nullptr)
       add_row(cover, span_[row], x1 - x0 + 1, flux_.data() + index(x0, y), ramp);
     else
       add_shared_row(cover, x1 - x0 + 1, flux_.data() + index(x0, y), ramp,
-                     [&](int k) { return (*share)({x0 + k + 0.5, y + 0.5}); });
+                     [&](int k) { return (*transmittance)({x0 + k + 0.5, y + 0.5}); });
     span_[row] = {};
   }
 }

@@ -48,8 +48,8 @@ class FluxBox {
   void add_polygon(std::span<const Vec2> polygon, const Density& density);
 
   // Adds a convex polygon whose transmittance is evaluated at the middle of each pixel.
-  using PixelShare = std::function<double(Vec2 middle)>;
-  void add_polygon(std::span<const Vec2> polygon, const Density& density, const PixelShare& share);
+  using PixelTransmittance = std::function<double(Vec2 middle)>;
+  void add_polygon(std::span<const Vec2> polygon, const Density& density, const PixelTransmittance& transmittance);
 
   // Adds all the flux to the pixel of the point, or along a line in proportion to length: for polygons without area.
   void add_point(Vec2 point, double flux);
@@ -63,10 +63,10 @@ class FluxBox {
     return static_cast<std::size_t>(y - box_.y0) * static_cast<std::size_t>(box_.width()) +
            static_cast<std::size_t>(x - box_.x0);
   }
-  void add_clipped(std::span<const Vec2> polygon, const Density& density, const PixelShare* share);
-  void add_inside(std::span<const Vec2> polygon, const Density& density, const PixelShare* share);
-  void add_halves(std::span<const Vec2> polygon, const Density& density, const PixelShare* share, bool cut_columns,
-                  double at);
+  void add_clipped(std::span<const Vec2> polygon, const Density& density, const PixelTransmittance* transmittance);
+  void add_inside(std::span<const Vec2> polygon, const Density& density, const PixelTransmittance* transmittance);
+  void add_halves(std::span<const Vec2> polygon, const Density& density, const PixelTransmittance* transmittance,
+                  bool cut_columns, double at);
 
   PixelBox box_;
   std::vector<float> flux_;

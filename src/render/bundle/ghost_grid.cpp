@@ -11,7 +11,7 @@ namespace contrejour::inline internal::bundle {
 namespace {
 
 // With fewer than 32 rays a side a caustic in a small ghost shows the grid as a four-pointed star.
-constexpr int kFewestScaled = 32;
+constexpr int kMinScaled = 32;
 
 void make_symmetric(Rectangle& r) {
   r.high.y = std::max(std::abs(r.low.y), std::abs(r.high.y));
@@ -38,7 +38,7 @@ void GhostGrid::count_rays(std::uint64_t rays, const OpticalPath& path) {
   counts_.surface_hits += rays * path.steps.size();
 }
 
-std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light, double lambda_nm, bool look) {
+std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light, double lambda_nm, bool with_figures) {
   const Stopwatch watch(counts_.search_ms);
   const BundleOptions& options = from_.options;
   GhostPupil pupil;
@@ -48,7 +48,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   const bool from_table = from_.bounds != nullptr && light.is_distant() && !pupil.stop.pattern;
   const bool in_meridian = mirrors() || from_table;
   pupil.meridian = in_meridian ? meridian_of(light) : Meridian{light, 0.0};
-  pupil.iris = pupil.stop.traced_iris(turned_back(from_.lens.iris, pupil.meridian));
+  pupil.iris = pupil.stop.traced_iris(rotated_back(from_.lens.iris, pupil.meridian));
   const EntranceWindow window = entrance_window(from_.lens, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
@@ -57,7 +57,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
   if (mirrors()) make_symmetric(pupil.region.pupil_mm);
-  if (look || options.grid_levels || options.anisotropic != BundleOptions::Anisotropic::Exact) {
+  if (with_figures || options.grid_levels || options.anisotropic != BundleOptions::Anisotropic::Exact) {
     pupil.figures = figures_of(pupil);
   }
   return pupil;
@@ -74,14 +74,14 @@ std::optional<pupils::PupilRegion> GhostGrid::search(const GhostPupil& pupil, co
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {
   rays_.trace(pupil.path, tables_of(pupil), IrisShape(pupil.iris), pupil.meridian.light, pupil.plane_z_mm,
               pupil.region.pupil_mm, kProbeSide, PacketPrecision::Double);
-  rays_.turn_sensor(pupil.meridian.turn_rad);
+  rays_.rotate_sensor(pupil.meridian.rotation_rad);
   count_rays(static_cast<std::uint64_t>(kProbeSide) * kProbeSide, pupil.path);
   return measure_map(rays_);
 }
 
 int GhostGrid::side_of(const GhostPupil& pupil) const {
   if (from_.options.grid_levels) return grid_level(*pupil.figures);
-  return grid_side(from_.options.grid, from_.lens, pupil.region.sensor_mm, kFewestScaled);
+  return grid_side(from_.options.grid, from_.lens, pupil.region.sensor_mm, kMinScaled);
 }
 
 void GhostGrid::trace(const GhostPupil& pupil) {
@@ -100,7 +100,7 @@ void GhostGrid::trace(const GhostPupil& pupil) {
     rays_.trace(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision);
     count_rays(all, pupil.path);
   }
-  if (pupil.meridian.turn_rad != 0.0) rays_.turn_sensor(pupil.meridian.turn_rad);
+  if (pupil.meridian.rotation_rad != 0.0) rays_.rotate_sensor(pupil.meridian.rotation_rad);
 }
 
 }  // namespace contrejour::inline internal::bundle

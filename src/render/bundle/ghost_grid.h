@@ -47,8 +47,9 @@ class GhostGrid {
  public:
   GhostGrid(const GridSource& source, double pixel_pitch_mm) : from_(source), pixel_pitch_mm_(pixel_pitch_mm) {}
 
-  // nullopt when nothing gets through. look: the figures are computed whatever the options are.
-  [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm, bool look);
+  // nullopt when nothing gets through. with_figures: the figures are computed whatever the options are.
+  [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm,
+                                               bool with_figures);
 
   // Traces the pupil; rays() is valid until the next find() or trace().
   void trace(const GhostPupil& pupil);

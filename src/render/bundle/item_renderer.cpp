@@ -16,12 +16,12 @@ constexpr std::size_t kPassesPerItem = 4;
 // hullin2011 7.2 draws very anisotropic ghosts at a higher resolution: by this factor on each side.
 constexpr int kFineness = 4;
 // Gaps of less than two pixels between bands are not visible: a band whose light moves by less is not blurred.
-constexpr double kUnseenWay_px = 1.0;
+constexpr double kInvisibleShift_px = 1.0;
 // Bands are drawn as far beyond the frame as their light may move into it, but no farther than this.
 constexpr double kWidestBorder_px = 256.0;
 
 bool is_blurred(const BundleOptions& options, std::size_t bands) {
-  return options.spectral_filter && bands > 1 && bands <= kMostBlurredBands;
+  return options.spectral_filter && bands > 1 && bands <= kMaxBlurredBands;
 }
 
 Frame finer(Frame frame, int factor) {
@@ -63,7 +63,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
     const bool blurred = is_blurred(options, all.size());
     const std::size_t together = blurred ? all.size() : kPassesPerItem;
     for (std::size_t first = 0; first < all.size(); first += together) {
-      items.push_back({plan.ghosts[g], &plan.looks[g], &light,
+      items.push_back({plan.ghosts[g], &plan.adjustments[g], &light,
                        all.subspan(first, std::min(together, all.size() - first)), blurred});
     }
   });
@@ -71,7 +71,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
 }
 
 ItemRenderer::ItemRenderer(const Item& item, const Frame& frame, const GridSource& source, const Context& context)
-    : item_(item), options_(source.options), frame_(item.look->placed(frame)), context_(context),
+    : item_(item), options_(source.options), frame_(item.adjustment->placed(frame)), context_(context),
       grid_(source, frame.pixel_pitch_mm) {}
 
 RenderedItem ItemRenderer::render() {
@@ -109,9 +109,9 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
 }
 
 ItemRenderer::Layer ItemRenderer::draw_blurred(const GhostPupil& pupil, const std::optional<BandMotion>& motion) {
-  const double way_px = motion ? longest_way_px(*motion, frame_) : 0.0;
-  if (way_px < kUnseenWay_px) return draw(pupil, frame_);
-  const int border = static_cast<int>(std::ceil(std::min(way_px, kWidestBorder_px)));
+  const double shift_px = motion ? longest_shift_px(*motion, frame_) : 0.0;
+  if (shift_px < kInvisibleShift_px) return draw(pupil, frame_);
+  const int border = static_cast<int>(std::ceil(std::min(shift_px, kWidestBorder_px)));
   const FluxBox band = draw(pupil, bordered(frame_, border));
   const Stopwatch watch(grid_.counts().raster_ms);
   return blurred(band, *motion, frame_, border);
@@ -130,7 +130,7 @@ FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {
                     {.transmittance = pupil.stop,
                      .light = pupil.meridian.light,
                      .entrance_z_mm = pupil.plane_z_mm,
-                     .turn_rad = pupil.meridian.turn_rad});
+                     .rotation_rad = pupil.meridian.rotation_rad});
   FluxBox flux = raster.draw([&] { return context_.cancelled(); });
   grid_.counts().primitives += raster.primitives();
   return fine ? flux.coarser(kFineness) : std::move(flux);
@@ -145,7 +145,7 @@ RenderedItem ItemRenderer::merge(const std::vector<Layer>& layers) {
   for (std::size_t k = 0; k < layers.size(); ++k) {
     if (!layers[k] || layers[k]->box().empty()) continue;
     const PixelBox b = layers[k]->box();
-    const Rgb gain = item_.look->tinted(item_.passes[k].gain);
+    const Rgb gain = item_.adjustment->tinted(item_.passes[k].gain);
     const std::array<float, 3> g{static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])};
     for (int y = b.y0; y < b.y1; ++y) {
       float* to = out.rgb.data() +

@@ -16,7 +16,7 @@ namespace contrejour::inline internal::bundle {
 
 struct Item {
   Ghost ghost;
-  const GhostLook* look = nullptr;
+  const AppliedAdjustment* adjustment = nullptr;
   const PlannedLight* light = nullptr;
   std::span<const PlannedPass> passes;
   bool are_blurred = false;  // into each other

@@ -75,7 +75,7 @@ class MapMeter {
 
   void finish() {
     const double all = static_cast<double>(probe_.cells()) * probe_.cells();
-    figures_.open_share = cells_ / all;
+    figures_.open_fraction = cells_ / all;
     if (cells_ > 0.0 && sizes_ > 0.0) {
       const double mean = sum_ / cells_;
       const double size = sizes_ / cells_;
@@ -103,8 +103,8 @@ int grid_level(const MapFigures& figures) {
   int side = kLowestLevel;
   for (double bound = kLowestVariance; side < kHighestLevel && figures.area_variance > bound; bound *= 10.0) side *= 2;
   // If no corner is open, the pupil is smaller than a cell of the probe.
-  const double share = std::max(figures.open_share, 1.0 / (kProbeSide * kProbeSide));
-  const double wanted = side * std::sqrt(kRoundPupil / share);
+  const double fraction = std::max(figures.open_fraction, 1.0 / (kProbeSide * kProbeSide));
+  const double wanted = side * std::sqrt(kRoundPupil / fraction);
   while (side < kHighestLevel && side * kNearEnough < wanted) side *= 2;
   return side;
 }

@@ -13,7 +13,7 @@ struct MapFigures {
   // areas.
   double area_variance = 0;
   // The fraction of cells with an open corner; pi / 4 where a round pupil fills its rectangle.
-  double open_share = 0;
+  double open_fraction = 0;
   // The ratio of the largest to the smallest stretch of an open cell, at its maximum over the cells.
   double anisotropy = 1;
   // Where the open rays meet the sensor, weighted by transmittance and by the distance from the opening's edge. Weight

@@ -12,30 +12,30 @@ constexpr double kFrontExtent = 2.0;  // clear radii: inclined beams cross the f
 constexpr double kStopExtent = 1.02;  // stop radii
 constexpr double kDiagonal = 0.7072;  // half a square's diagonal over its side, rounded up
 constexpr double kThinnest_mm = 1e-5;  // the lower end of the classes of width
-constexpr int kMostParts = 8;  // parts a side, for a square that is wider than a cell
+constexpr int kMaxParts = 8;  // parts a side, for a square that is wider than a cell
 constexpr double kDark = 1e-5;  // once shapes leave less light than this, further ones do not matter
 constexpr int kFewCells = 3;  // cells across a disc, up to which its distance from every shape is computed
 constexpr int kPointsOfCell = 2;  // a side, for a cell's mean transmittance
-constexpr int kMostSubsamples = 4;  // a side of the square, where a picture is finer
+constexpr int kMaxSubsamples = 4;  // a side of the square, where a picture is finer
 
-// The fraction of a square about a place that a shape covers; the square lies along the shape. If the square is
+// The fraction of a square about a point that a shape covers; the square lies along the shape. If the square is
 // narrower than the shape, the fraction follows from the distance to the edge; at round ends the distance is shifted
 // inwards so that a disc's fraction integrates to its area. For a wider square the shape is replaced by a rectangle of
 // the same width and area, whose fraction integrates to the area as well.
-double covered_share(const DirtStroke& s, Vec2 place, double width) {
-  const double distance = s.distance_mm(place);
+double covered_fraction(const DirtStroke& s, Vec2 point, double width) {
+  const double distance = s.distance_mm(point);
   if (!(width > 0.0)) return distance < 0.0 ? 1.0 : 0.0;
   if (width < s.width_mm) {
     if (std::abs(distance) > width) return distance < 0.0 ? 1.0 : 0.0;
     const double radius = 0.5 * s.width_mm;
-    const bool at_end = std::abs(s.along_and_across_mm(place).x) > 0.5 * s.length_mm;
+    const bool at_end = std::abs(s.along_and_across_mm(point).x) > 0.5 * s.length_mm;
     const double inwards = at_end ? radius - std::sqrt(radius * radius - width * width / 12.0) : 0.0;
     return std::clamp(0.5 - (distance + inwards) / width, 0.0, 1.0);
   }
   const auto overlap = [&](double at, double length) {
     return std::clamp(std::min(at + 0.5 * width, 0.5 * length) - std::max(at - 0.5 * width, -0.5 * length), 0.0, width);
   };
-  const Vec2 own = s.along_and_across_mm(place);
+  const Vec2 own = s.along_and_across_mm(point);
   const double length = s.length_mm + 0.25 * std::numbers::pi * s.width_mm;
   return overlap(own.x, length) * overlap(own.y, s.width_mm) / (width * width);
 }
@@ -66,10 +66,10 @@ DirtField::DirtField(const LensState& lens)
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     const DirtStroke& s = shapes_[k];
     count(s);
-    const double reach = s.reach_mm() + cell_mm_;
-    for (int y = cell_of(s.middle_mm.y - reach); y <= cell_of(s.middle_mm.y + reach); ++y)
-      for (int x = cell_of(s.middle_mm.x - reach); x <= cell_of(s.middle_mm.x + reach); ++x) {
-        // Half the cell's diagonal, and as much again for a square about a place in the cell.
+    const double outer_radius = s.outer_radius_mm() + cell_mm_;
+    for (int y = cell_of(s.middle_mm.y - outer_radius); y <= cell_of(s.middle_mm.y + outer_radius); ++y)
+      for (int x = cell_of(s.middle_mm.x - outer_radius); x <= cell_of(s.middle_mm.x + outer_radius); ++x) {
+        // Half the cell's diagonal, and as much again for a square about a point in the cell.
         const auto cell = static_cast<std::size_t>(y * kCells + x);
         if (left[cell] < kDark) continue;
         const Vec2 middle{(x + 0.5) * cell_mm_ - extent_mm_, (y + 0.5) * cell_mm_ - extent_mm_};
@@ -89,35 +89,35 @@ DirtField::DirtField(const LensState& lens)
 void DirtField::count(const DirtStroke& s) {
   const double field_mm2 = 4.0 * extent_mm_ * extent_mm_;
   const double covered = s.width_mm * (s.length_mm + 0.25 * std::numbers::pi * s.width_mm) / field_mm2;
-  const double share = covered * s.opacity * s.opacity;
+  const double coverage = covered * s.opacity * s.opacity;
   edges_per_mm_ += s.opacity * s.opacity * (2.0 * s.length_mm + std::numbers::pi * s.width_mm) / field_mm2;
   const auto octave = static_cast<std::size_t>(std::clamp(std::log2(s.width_mm / kThinnest_mm), 0.0, 31.0));
   if (sizes_.size() <= octave) sizes_.resize(octave + 1);
   Size& size = sizes_[octave];
-  size.share += share;
-  if (!(size.share > 0.0)) return;
-  size.width_mm += (s.width_mm - size.width_mm) * share / size.share;
-  size.length_mm += (s.length_mm + s.width_mm - size.length_mm) * share / size.share;
+  size.coverage += coverage;
+  if (!(size.coverage > 0.0)) return;
+  size.width_mm += (s.width_mm - size.width_mm) * coverage / size.coverage;
+  size.length_mm += (s.length_mm + s.width_mm - size.length_mm) * coverage / size.coverage;
 }
 
 void DirtField::sum_up_cells() {
   dirty_ = CellFlags(kCells, extent_mm_, [&](int x, int y) { return !shapes_about(x, y).empty(); });
   for (int y = 0; y < kCells; ++y) {
-    passed_.push_back(0.0);
+    transmitted_.push_back(0.0);
     for (int x = 0; x < kCells; ++x) {
       const Vec2 middle{(x + 0.5) * cell_mm_ - extent_mm_, (y + 0.5) * cell_mm_ - extent_mm_};
       const bool clean = !picture_ && shapes_about(x, y).empty();
-      const double passed =
+      const double transmitted =
           clean ? 1.0
                 : mean_of_parts(kPointsOfCell, [&](Vec2 off) { return transmission({middle + off * cell_mm_, 0.0}); });
-      passed_.push_back(passed_.back() + passed);
-      covered_ += (1.0 - passed) / (kCells * kCells);
+      transmitted_.push_back(transmitted_.back() + transmitted);
+      covered_ += (1.0 - transmitted) / (kCells * kCells);
     }
   }
   if (!shapes_.empty()) covered_ /= shapes_.front().opacity;  // all shapes have the same opacity
 }
 
-// Sums whole cells, row by row, between the places where the ellipse crosses the row.
+// Sums whole cells, row by row, between the points where the ellipse crosses the row.
 double DirtField::mean_within(Vec2 low_mm, Vec2 high_mm) const {
   const Vec2 middle = (low_mm + high_mm) * 0.5, half = (high_mm - low_mm) * 0.5;
   double sum = 0.0, cells = 0.0;
@@ -125,7 +125,7 @@ double DirtField::mean_within(Vec2 low_mm, Vec2 high_mm) const {
     const double up = ((y + 0.5) * cell_mm_ - extent_mm_ - middle.y) / std::max(half.y, 0.5 * cell_mm_);
     const double across = half.x * std::sqrt(std::max(0.0, 1.0 - up * up));
     const int left = cell_of(middle.x - across), right = cell_of(middle.x + across) + 1;
-    const double* const row = passed_.data() + y * (kCells + 1);
+    const double* const row = transmitted_.data() + y * (kCells + 1);
     sum += row[right] - row[left];
     cells += right - left;
   }
@@ -134,13 +134,13 @@ double DirtField::mean_within(Vec2 low_mm, Vec2 high_mm) const {
 
 // A shape smaller than a pixel dims it by the fraction of the pixel that it covers.
 double DirtField::variance(double pixel_mm) const {
-  constexpr double kMost = 0.25;  // the largest variance of a value that is 0 or 1
-  if (picture_) return kMost;
+  constexpr double kMaxVariance = 0.25;  // the largest variance of a value that is 0 or 1
+  if (picture_) return kMaxVariance;
   double sum = 0.0;
   for (const Size& size : sizes_)
-    if (size.share > 0.0)
-      sum += size.share * std::min(1.0, size.width_mm / pixel_mm) * std::min(1.0, size.length_mm / pixel_mm);
-  return std::min(sum, kMost);
+    if (size.coverage > 0.0)
+      sum += size.coverage * std::min(1.0, size.width_mm / pixel_mm) * std::min(1.0, size.length_mm / pixel_mm);
+  return std::min(sum, kMaxVariance);
 }
 
 std::span<const std::uint32_t> DirtField::shapes_about(int x, int y) const {
@@ -154,9 +154,9 @@ double DirtField::small_transmission(Vec2 at, double width) const {
   for (const std::uint32_t k : shapes_about(cell_of(at.x), cell_of(at.y))) {
     const DirtStroke& s = shapes_[k];
     const Vec2 from = at - s.middle_mm;
-    const double reach = s.reach_mm() + kDiagonal * width;
-    if (dot(from, from) > reach * reach) continue;
-    all *= 1.0 - s.opacity * covered_share(s, at, width);
+    const double outer_radius = s.outer_radius_mm() + kDiagonal * width;
+    if (dot(from, from) > outer_radius * outer_radius) continue;
+    all *= 1.0 - s.opacity * covered_fraction(s, at, width);
     if (!(all > 0.0)) break;
   }
   return all;
@@ -166,7 +166,7 @@ double DirtField::transmission(const DirtPoint& point) const {
   if (!std::isfinite(point.at_mm.x + point.at_mm.y)) return 1.0;
   const double of_picture = picture_ ? picture_transmission(point) : 1.0;
   if (shapes_.empty()) return of_picture;
-  const int parts = std::clamp(static_cast<int>(std::ceil(point.width_mm / cell_mm_)), 1, kMostParts);
+  const int parts = std::clamp(static_cast<int>(std::ceil(point.width_mm / cell_mm_)), 1, kMaxParts);
   return of_picture * mean_of_parts(parts, [&](Vec2 off) {
            return small_transmission(point.at_mm + off * point.width_mm, point.width_mm / parts);
          });
@@ -175,7 +175,7 @@ double DirtField::transmission(const DirtPoint& point) const {
 double DirtField::picture_transmission(const DirtPoint& point) const {
   const Vec2 at = point.at_mm * (1.0 / clear_radius_mm_);
   const double width = point.width_mm / clear_radius_mm_;
-  const int parts = std::clamp(static_cast<int>(std::ceil(width / picture_->pixel())), 1, kMostSubsamples);
+  const int parts = std::clamp(static_cast<int>(std::ceil(width / picture_->pixel())), 1, kMaxSubsamples);
   return mean_of_parts(parts, [&](Vec2 off) { return picture_->transmission(at + off * width); });
 }
 
@@ -199,9 +199,9 @@ void DirtField::find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t
     for (int x = cell_of(low_mm.x); x <= cell_of(high_mm.x); ++x)
       for (const std::uint32_t k : shapes_about(x, y)) {
         const DirtStroke& s = shapes_[k];
-        const double reach = s.reach_mm();
-        if (s.middle_mm.x + reach >= low_mm.x && s.middle_mm.x - reach <= high_mm.x &&
-            s.middle_mm.y + reach >= low_mm.y && s.middle_mm.y - reach <= high_mm.y)
+        const double outer_radius = s.outer_radius_mm();
+        if (s.middle_mm.x + outer_radius >= low_mm.x && s.middle_mm.x - outer_radius <= high_mm.x &&
+            s.middle_mm.y + outer_radius >= low_mm.y && s.middle_mm.y - outer_radius <= high_mm.y)
           found.push_back(k);
       }
   std::sort(found.begin(), found.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dirt with sharp shadows: the shapes and the picture of a lens's dirt in the plane that they lie in, and the
-// transmittance of the dirt at any place. A grid of cells lists the shapes that come near each cell. Units: mm of the
+// transmittance of the dirt at any point. A grid of cells lists the shapes that come near each cell. Units: mm of the
 // dirt's plane. Accuracy: a small square is covered as by a rectangle of the shape's width and area; dirt on the front
 // counts within two clear radii of the axis.
 // Thread-safety: constant after construction. Source: docs/physics/diffraction.md, "Dirt".
@@ -25,7 +25,7 @@ struct DirtPoint {
 
 // The shadows' edges: their length per area, times opacity^2, and their approximate width (0: sharp).
 struct DirtEdges {
-  double per_mm = 0.0, softness_mm = 0.0;
+  double per_mm = 0.0, edge_width_mm = 0.0;
 };
 
 // The plane that the dirt lies in.
@@ -56,7 +56,7 @@ class DirtField {
   // This field, whose shadows may be drawn as the shapes' outlines; null if there is a picture, or if overlaps of
   // shapes cannot be ignored because they cover much of the field.
   [[nodiscard]] const DirtField* outlines() const {
-    return picture_ == nullptr && covered_ < kMostCovered ? this : nullptr;
+    return picture_ == nullptr && covered_ < kMaxCovered ? this : nullptr;
   }
 
   // Approximate mean transmittance over the ellipse with these bounds; approximate variance of the transmittance of
@@ -72,7 +72,7 @@ class DirtField {
 
  private:
   static constexpr int kCells = 128;  // across the field
-  static constexpr double kMostCovered = 0.3;  // fraction of the field
+  static constexpr double kMaxCovered = 0.3;  // fraction of the field
   [[nodiscard]] int cell_of(double coordinate_mm) const { return dirty_.cell_of(coordinate_mm); }
   [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
   [[nodiscard]] double small_transmission(Vec2 at, double width) const;
@@ -86,7 +86,7 @@ class DirtField {
   std::vector<std::uint32_t> first_, shapes_of_cell_;  // those of cell k: shapes_of_cell_[first_[k]..first_[k + 1]]
   std::shared_ptr<const DirtPicture> picture_;
   struct Size {  // the shapes of a class of width, an octave
-    double share = 0.0;  // fraction of the field that they cover, times opacity^2
+    double coverage = 0.0;  // fraction of the field that they cover, times opacity^2
     double width_mm = 0.0, length_mm = 0.0;  // means, weighted by that fraction
   };
   void count(const DirtStroke& shape);
@@ -94,7 +94,7 @@ class DirtField {
 
   std::vector<Size> sizes_;
   CellFlags dirty_;  // cells that are near a shape
-  std::vector<double> passed_;  // sum of the transmittances of the cells to the left of each border, row by row
+  std::vector<double> transmitted_;  // sum of the transmittances of the cells to the left of each border, row by row
   double covered_ = 0.0, edges_per_mm_ = 0.0;
 };
 

@@ -24,7 +24,7 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr int kMaxWavelengths = 1024;
-constexpr int kBandsByNeed = 32;  // as many as a caustic of a fisheye in a large frame needs
+constexpr int kAutoBands = 32;  // as many as a caustic of a fisheye in a large frame needs
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
@@ -43,11 +43,11 @@ std::optional<Error> problem_with(const LensState& lens, std::span<const Light> 
 }
 
 std::vector<SpectralBand> bands_of(const Light& light, const FrameSettings& settings) {
-  const int count = settings.wavelengths == kWavelengthsByNeed ? kBandsByNeed : settings.wavelengths;
+  const int count = settings.wavelengths == kAutoWavelengths ? kAutoBands : settings.wavelengths;
   if (settings.lambda_nm.empty()) return spectral_bands(count, light.spectrum, settings.colour_space);
   std::vector<SpectralBand> bands;
-  const double share = 1.0 / static_cast<double>(settings.lambda_nm.size());
-  for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {share, share, share}});
+  const double weight = 1.0 / static_cast<double>(settings.lambda_nm.size());
+  for (const double lambda_nm : settings.lambda_nm) bands.push_back({lambda_nm, {weight, weight, weight}});
   std::ranges::sort(bands, {}, &SpectralBand::lambda_nm);
   return bands;
 }
@@ -72,7 +72,7 @@ std::vector<double> wavelengths_of(const BandsBySpectrum& spectra) {
   return all;
 }
 
-// What takes long and needs no fluxes; its parts are computed in parallel: the places where lights are measured, the
+// What takes long and needs no fluxes; its parts are computed in parallel: the positions where lights are measured, the
 // reflectance tables of the wavelengths that their fluxes are measured at, and the lens's dirt.
 struct Preparation {
   std::vector<LightSource> measured;  // one for each light
@@ -115,8 +115,8 @@ double edge_gain(const LensState& lens, const Light& light, const FrameSettings&
   if (at_corner == 1.0) return 1.0;
   const Frame& frame = settings.frame;
   const double corner_mm = 0.5 * std::hypot(frame.full_width, frame.full_height) * frame.pixel_pitch_mm;
-  const double landing_mm = length(chief_ray_image_point(lens, light.source(), lens.design_wavelength_nm));
-  return std::lerp(1.0, at_corner, std::min(1.0, landing_mm / corner_mm));
+  const double image_mm = length(chief_ray_image_point(lens, light.source(), lens.design_wavelength_nm));
+  return std::lerp(1.0, at_corner, std::min(1.0, image_mm / corner_mm));
 }
 
 PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables, const Light& light,
@@ -172,13 +172,13 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
   plan.dirt = std::move(prepared->dirt);
-  plan.by_need = settings.lambda_nm.empty() && settings.wavelengths == kWavelengthsByNeed;
-  plan.reflected = kept->reflected(wavelengths_of(spectra));
+  plan.adapts_passes = settings.lambda_nm.empty() && settings.wavelengths == kAutoWavelengths;
+  plan.reflectances = kept->reflectances(wavelengths_of(spectra));
   auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);
-  plan.looks = ghost_looks(lens, plan.ghosts, settings.ghosts, settings.frame);
-  if (const auto good = check_brightness(lights, plan.ghosts, plan.looks, settings.ghosts); !good)
+  plan.adjustments = applied_adjustments(lens, plan.ghosts, settings.ghosts, settings.frame);
+  if (const auto good = check_brightness(lights, plan.ghosts, plan.adjustments, settings.ghosts); !good)
     return tl::unexpected(good.error());
   plan.skipped_flux = selected->skipped_flux;
   plan.pupils = std::move(selected->pupils);

@@ -12,12 +12,12 @@
 #include "contrejour/frame_settings.h"
 #include "contrejour/render.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/planning/applied_adjustment.h"
 #include "render/planning/dirt_field.h"
-#include "render/planning/ghost_look.h"
 #include "render/planning/planned_light.h"
 #include "render/planning/render_cache.h"
 #include "render/pupils/ghost_pupil.h"
-#include "render/radiometry/reflected_share.h"
+#include "render/radiometry/ghost_reflectances.h"
 
 namespace contrejour::inline internal {
 
@@ -27,14 +27,14 @@ struct GhostOfLight {
 
 struct FramePlan {
   std::vector<Ghost> ghosts;
-  std::vector<GhostLook> looks;  // one for each ghost
+  std::vector<AppliedAdjustment> adjustments;  // one for each ghost
   std::vector<PlannedLight> lights;
-  bool by_need = false;  // the lights' passes are as fine as any ghost may need; few ghosts need all
+  bool adapts_passes = false;  // the lights' passes are as fine as any ghost may need; few ghosts need all
   // The passes of each pair, in the order of for_each_pair() (passes_by_need.h); empty: each pair has all passes of its
   // light.
   std::vector<std::vector<PlannedPass>> passes = {};
   TablesByWavelength tables;  // made on first use
-  ReflectedShares reflected;  // at every wavelength of the lights' passes
+  GhostReflectances reflectances;  // at every wavelength of the lights' passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
   // The ghosts' pupils, by ghost and then by light, if the selection had to find them; else empty.
   std::vector<pupils::GhostPupil> pupils = {};
@@ -43,7 +43,7 @@ struct FramePlan {
   std::vector<GhostOfLight> pairs = {};
   // A lower limit of the peak that errors are relative to, in pixel values: the picture may become part of a brighter
   // one.
-  double least_peak = 0.0;
+  double min_peak = 0.0;
   // If set, rows and columns that are farther than this many pixels from all light may be left out of the picture.
   std::optional<int> dark_margin_px;
 };

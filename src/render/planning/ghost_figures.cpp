@@ -97,8 +97,8 @@ class FigureMaker {
     }
     // A ghost has nearly the same shape in all bands, so each band adds to the peak in proportion to its flux.
     if (brightest) {
-      const double share = weight_sum / brightest->measure().flux_mm2;
-      figures.peak_irradiance = share * brightest->peak_per_mm2(request_.frame.pixel_pitch_mm);
+      const double scale = weight_sum / brightest->measure().flux_mm2;
+      figures.peak_irradiance = scale * brightest->peak_per_mm2(request_.frame.pixel_pitch_mm);
     }
     return figures;
   }
@@ -108,7 +108,7 @@ class FigureMaker {
     figures.first_order = ghost_first_order(lens_, figures.ghost, lens_.design_wavelength_nm);
     const double diagonal_mm = std::hypot(lens_.sensor_width_mm, lens_.sensor_height_mm);
     figures.in_focus = figures.first_order.blur_mm <= GhostFigures::kSharpBlur * diagonal_mm;
-    figures.pupil_ghost = std::abs(figures.first_order.place) <= GhostFigures::kStillPlace;
+    figures.pupil_ghost = std::abs(figures.first_order.relative_image_height) <= GhostFigures::kStillPosition;
   }
 
   [[nodiscard]] double reflectance_of(const Ghost& ghost, double lambda_nm) const {

@@ -11,7 +11,7 @@
 
 #include "base/tasks.h"
 #include "ghosts/light_frame.h"
-#include "render/planning/ghost_look.h"
+#include "render/planning/applied_adjustment.h"
 #include "render/pupils/ghost_light.h"
 #include "render/radiometry/wavelength_samples.h"
 
@@ -21,8 +21,8 @@ namespace {
 using pupils::GhostPupil;
 using pupils::PupilRequest;
 
-constexpr std::size_t kMostMeasured = 5;  // wavelengths of a light; the others are interpolated
-constexpr std::size_t kMostKept = 1U << 16U;  // pupils; beyond this number they are searched again rather than kept
+constexpr std::size_t kMaxMeasured = 5;  // wavelengths of a light; the others are interpolated
+constexpr std::size_t kMaxKept = 1U << 16U;  // pupils; beyond this number they are searched again rather than kept
 
 // The pupils of the ghosts that have been searched, by ghost and then by light, and the flux that they add to the
 // picture.
@@ -34,8 +34,8 @@ struct Measured {
 // The rectangle of the sensor within which a ghost's light counts, displaced by the ghost's offset: the whole frame,
 // even where only a window of it is drawn, so that all windows have the same ghosts, together with the part of the
 // window outside the frame.
-Rectangle seen_mm(const Frame& frame, const GhostLook& look) {
-  const Frame placed = look.placed(frame);
+Rectangle visible_mm(const Frame& frame, const AppliedAdjustment& adjustment) {
+  const Frame placed = adjustment.placed(frame);
   const double left = std::min(-frame.origin_x, 0), top = std::min(-frame.origin_y, 0);
   const double right = std::max(frame.full_width - frame.origin_x, frame.width);
   const double bottom = std::max(frame.full_height - frame.origin_y, frame.height);
@@ -48,7 +48,7 @@ class MeasuredLight {
   explicit MeasuredLight(const LensState& lens, const PlannedLight& light)
       : light_(light), windows_(lens, light.source) {
     for (const PlannedPass& pass : light.passes) all_nm_.push_back(pass.lambda_nm);
-    const WavelengthSamples samples(all_nm_, kMostMeasured);
+    const WavelengthSamples samples(all_nm_, kMaxMeasured);
     std::vector<std::size_t> chosen;
     for (std::size_t k = 0; k < samples.size(); ++k) chosen.push_back(samples[k]);
     std::vector<std::size_t> order(chosen.size());
@@ -69,13 +69,13 @@ class MeasuredLight {
     return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
   }
   [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& searched, const IrisShape& iris,
-                         const GhostLook& look, const Frame& frame) const {
+                         const AppliedAdjustment& adjustment, const Frame& frame) const {
     Rgb sum{};
     const std::vector<double> flux =
-        approximate_fluxes_within(request, searched, measured_nm_, iris, seen_mm(frame, look));
+        approximate_fluxes_within(request, searched, measured_nm_, iris, visible_mm(frame, adjustment));
     for (std::size_t k = 0; k < gain_.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux[k];
-    return look.tinted(sum);
+    return adjustment.tinted(sum);
   }
 
  private:
@@ -96,16 +96,17 @@ class GhostMeasuring {
 
   // Errors: Cancelled.
   [[nodiscard]] Result<Measured> measure(std::span<const Ghost> ghosts, const Context& context) const {
-    const std::vector<GhostLook> looks = ghost_looks(lens_, ghosts, settings_.ghosts, settings_.frame);
+    const std::vector<AppliedAdjustment> adjustments =
+        applied_adjustments(lens_, ghosts, settings_.ghosts, settings_.frame);
     const std::size_t count = ghosts.size() * lights_.size();
     std::vector<Rgb> flux(count);
     Measured out;
-    out.pupils.resize(count <= kMostKept ? count : 0);
+    out.pupils.resize(count <= kMaxKept ? count : 0);
     const bool done = parallel_for(count, context, [&](std::size_t k) {
       const std::size_t g = k / lights_.size();
       const PupilRequest request = request_of(k, ghosts[g]);
       GhostPupil searched = search_ghost_pupil(request);
-      flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, looks[g], settings_.frame);
+      flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, adjustments[g], settings_.frame);
       if (!out.pupils.empty()) out.pupils[k] = std::move(searched);
     });
     if (!done) return interrupted();
@@ -135,7 +136,7 @@ class GhostMeasuring {
 };
 
 // Each ghost's fraction of the flux of all ghosts, channel by channel.
-std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
+std::vector<Rgb> fractions_of(std::vector<Rgb> flux) {
   Rgb whole{};
   for (const Rgb& one : flux)
     for (std::size_t c = 0; c < 3; ++c) whole[c] += one[c];
@@ -147,24 +148,24 @@ std::vector<Rgb> shares_of(std::vector<Rgb> flux) {
 double largest(const Rgb& rgb) { return *std::max_element(rgb.begin(), rgb.end()); }
 
 // Indices of the ghosts, the brightest first, ties in ghost order.
-std::vector<std::size_t> by_falling_share(const std::vector<Rgb>& share) {
-  std::vector<std::size_t> order(share.size());
+std::vector<std::size_t> by_falling_fraction(const std::vector<Rgb>& fraction) {
+  std::vector<std::size_t> order(fraction.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return largest(share[a]) > largest(share[b]); });
+                   [&](std::size_t a, std::size_t b) { return largest(fraction[a]) > largest(fraction[b]); });
   return order;
 }
 
 // The smallest number of ghosts such that the others have, in each channel, no more than the fraction of flux that may
 // be dropped.
-std::size_t count_to_keep(const SelectByFlux& select, const std::vector<Rgb>& share,
+std::size_t count_to_keep(const SelectByFlux& select, const std::vector<Rgb>& fraction,
                           const std::vector<std::size_t>& order) {
   const double allowed = select.drop_percent / 100.0;
   Rgb dropped{};
   std::size_t keep = order.size();
   while (keep > 0) {
     Rgb next = dropped;
-    for (std::size_t c = 0; c < 3; ++c) next[c] += share[order[keep - 1]][c];
+    for (std::size_t c = 0; c < 3; ++c) next[c] += fraction[order[keep - 1]][c];
     if (largest(next) > allowed) break;
     dropped = next;
     --keep;
@@ -184,14 +185,14 @@ Result<void> check_list(const LensState& lens, const std::vector<Ghost>& list) {
 
 // The first ghosts of the order, put back into (i, j) order.
 GhostChoice first_of(const std::vector<Ghost>& all, std::size_t lights, Measured& measured,
-                     const std::vector<Rgb>& share, const std::vector<std::size_t>& order, std::size_t count) {
+                     const std::vector<Rgb>& fraction, const std::vector<std::size_t>& order, std::size_t count) {
   std::vector<bool> is_kept(all.size(), false);
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) is_kept[order[k]] = true;
   GhostChoice out;
   Rgb skipped{};
   for (std::size_t g = 0; g < all.size(); ++g) {
     if (!is_kept[g]) {
-      for (std::size_t c = 0; c < 3; ++c) skipped[c] += share[g][c];
+      for (std::size_t c = 0; c < 3; ++c) skipped[c] += fraction[g][c];
       continue;
     }
     out.ghosts.push_back(all[g]);
@@ -226,7 +227,7 @@ struct Selector {
     return by_flux([&](const auto&, const auto&) { return static_cast<std::size_t>(std::max(0, select.count)); });
   }
   Result<GhostChoice> operator()(const SelectByFlux& select) const {
-    return by_flux([&](const auto& share, const auto& order) { return count_to_keep(select, share, order); });
+    return by_flux([&](const auto& fraction, const auto& order) { return count_to_keep(select, fraction, order); });
   }
   Result<GhostChoice> operator()(const SelectList& select) const {
     const std::set<Ghost> once(select.ghosts.begin(), select.ghosts.end());
@@ -245,9 +246,9 @@ struct Selector {
     const GhostMeasuring measuring(lens, lights, tables, settings);
     auto measured = measuring.measure(all, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
-    const std::vector<Rgb> share = shares_of(measured->flux);
-    const auto order = by_falling_share(share);
-    GhostChoice choice = first_of(all, lights.size(), *measured, share, order, count(share, order));
+    const std::vector<Rgb> fraction = fractions_of(measured->flux);
+    const auto order = by_falling_fraction(fraction);
+    GhostChoice choice = first_of(all, lights.size(), *measured, fraction, order, count(fraction, order));
     if (!measuring.fit(choice.ghosts, choice.pupils, context)) return interrupted();
     return choice;
   }

@@ -13,7 +13,7 @@ namespace contrejour::inline internal {
 // phi are within their ranges.
 [[nodiscard]] Result<void> check_grid(const GridOptions& grid);
 
-// grid.rays; with grid.scale fewer rays, but at least `fewest`, by the fraction of the sensor that the ghost covers.
-[[nodiscard]] int grid_side(const GridOptions& grid, const LensState& lens, const Rectangle& on_sensor, int fewest);
+// grid.rays; with grid.scale fewer rays, but at least `min_count`, by the fraction of the sensor that the ghost covers.
+[[nodiscard]] int grid_side(const GridOptions& grid, const LensState& lens, const Rectangle& on_sensor, int min_count);
 
 }  // namespace contrejour::inline internal

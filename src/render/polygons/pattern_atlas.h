@@ -27,7 +27,7 @@ struct TextureTable {
   struct Level {
     std::int32_t side = 0;  // without the border
     std::uint32_t first = 0;  // index of its first sample
-    std::int32_t lowest = 0;  // of one wavelength: ShortLight::lowest()
+    std::int32_t lowest = 0;  // of one wavelength: PackedIrradiance::lowest()
     [[nodiscard]] std::int32_t pitch() const { return side + 2; }
   };
 

@@ -25,10 +25,10 @@ struct Point {
 using Channels = std::array<float, 4>;  // with one unused: four are read at once
 
 // Pixel value per pixel area and channel: the value at a point, and its change along x and y.
-struct Shade {
+struct LinearIrradiance {
   Point at;
   Channels value{}, along_x{}, along_y{};
-  friend bool operator==(const Shade&, const Shade&) = default;
+  friend bool operator==(const LinearIrradiance&, const LinearIrradiance&) = default;
 };
 
 // Positive where the corners turn from +x to +y.
@@ -48,11 +48,11 @@ struct PatternMap {
   Vec2 level, x, y, xx, xy, yy;
   double width = 0.0;  // of a pixel, or of the part of one that a sample stands for, stop radii
 
-  [[nodiscard]] Vec2 place(Vec2 pixel) const {
+  [[nodiscard]] Vec2 stop_point(Vec2 pixel) const {
     const Vec2 q = pixel - origin_px;
     return level + x * q.x + y * q.y + xx * (q.x * q.x) + xy * (q.x * q.y) + yy * (q.y * q.y);
   }
-  // The polynomial of weights . place + more.
+  // The polynomial of weights . stop_point + more.
   struct Form {
     float level = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   };
@@ -82,14 +82,14 @@ struct Pattern {
 
 // The factors of one bound at even steps of the distance, from 0 at dark_beyond outside it to 1 at level_within inside.
 struct EdgeTable {
-  bool grey = false;  // one factor serves all channels
+  bool is_monochrome = false;  // one factor serves all channels
   bool of_outline = false;  // the distance is that of the atlas's outline, and no bounds are listed
   std::uint32_t first = 0, count = 0;  // entries: in PolygonList::edge_steps if grey, else in edge_factors
   double dark_beyond = 0.0, level_within = 0.0;  // stop radii
   double per_step = 1.0;  // entries a stop radius
 };
 struct EdgeStep {
-  float factor = 0, rise = 0;  // rise: to the next factor; 0 at the last
+  float factor = 0, slope = 0;  // slope: to the next factor; 0 at the last
 };
 
 // The fraction of each channel's light that each wavelength of a texture has.
@@ -104,20 +104,20 @@ struct PixelSpan {
 struct Polygon {
   std::uint32_t first = 0;  // index in PolygonList::corners
   std::uint32_t count = 0;  // 1: a point that carries Shade::value
-  std::uint32_t shade = 0;  // index in PolygonList::shades
+  std::uint32_t irradiance = 0;  // index in PolygonList::shades
   std::uint32_t pattern = 0;  // k + 1: PolygonList::patterns[k]; 0: none
   std::uint32_t turns_left = 0;  // 1: from +x to +y
 };
 
 struct PolygonList {
-  static constexpr std::uint32_t kAlone = ~0U, kNotDrawn = ~0U - 1;
+  static constexpr std::uint32_t kUnshared = ~0U, kSkipped = ~0U - 1;
 
   std::vector<Point> corners;
   // For each corner, whether the edge from there to the next corner is drawn, and the other polygon for which it is
   // drawn as well. Empty: every edge is drawn for its own polygon alone.
-  std::vector<std::uint32_t> partner;
+  std::vector<std::uint32_t> neighbour;
   std::vector<Polygon> polygons;
-  std::vector<Shade> shades;
+  std::vector<LinearIrradiance> irradiances;
 
   std::vector<Pattern> patterns;
   std::vector<IrisBound> bounds;  // of the iris
@@ -129,27 +129,28 @@ struct PolygonList {
   std::vector<PixelSpan> spans;
   std::vector<std::array<float, 3>> pixels;  // transmittances, by channel
 
-  void add(std::span<const Point> polygon, const Shade& shade) {
-    if (shades.empty() || !(shades.back() == shade)) shades.push_back(shade);
+  void add(std::span<const Point> polygon, const LinearIrradiance& irradiance) {
+    if (irradiances.empty() || !(irradiances.back() == irradiance)) irradiances.push_back(irradiance);
     polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(polygon.size()),
-                        static_cast<std::uint32_t>(shades.size() - 1), 0, twice_signed_area(polygon) > 0.0 ? 1U : 0U});
+                        static_cast<std::uint32_t>(irradiances.size() - 1), 0,
+                        twice_signed_area(polygon) > 0.0 ? 1U : 0U});
     corners.insert(corners.end(), polygon.begin(), polygon.end());
   }
-  void add(std::span<const Point> polygon, const Shade& shade, const Pattern& behind) {
-    add(polygon, shade);
+  void add(std::span<const Point> polygon, const LinearIrradiance& irradiance, const Pattern& behind) {
+    add(polygon, irradiance);
     patterns.push_back(behind);
     polygons.back().pattern = static_cast<std::uint32_t>(patterns.size());
   }
-  [[nodiscard]] std::uint32_t partner_of(std::size_t corner) const {
-    return partner.empty() ? kAlone : partner[corner];
+  [[nodiscard]] std::uint32_t neighbour_of(std::size_t corner) const {
+    return neighbour.empty() ? kUnshared : neighbour[corner];
   }
   [[nodiscard]] std::span<const Point> corners_of(const Polygon& p) const {
     return {corners.data() + p.first, p.count};
   }
-  [[nodiscard]] const Shade& shade_of(const Polygon& p) const { return shades[p.shade]; }
+  [[nodiscard]] const LinearIrradiance& irradiance_of(const Polygon& p) const { return irradiances[p.irradiance]; }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& array) { return array.size() * sizeof array[0]; };
-    return of(corners) + of(partner) + of(polygons) + of(shades) + of(patterns) + of(spans) + of(pixels);
+    return of(corners) + of(neighbour) + of(polygons) + of(irradiances) + of(patterns) + of(spans) + of(pixels);
   }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What turns lists of polygons into pixels. A rasteriser outlives the frames that it draws, and what it keeps between
-// them (scratch memory, or a device's buffers) changes no picture. Each polygon adds its area in a pixel times its
-// irradiance at the pixel's centre times its pattern's transmittance; lists are added in their order.
+// A rasteriser draws lists of polygons as pixels. A rasteriser outlives the frames that it draws, and what it keeps
+// between them (scratch memory, or a device's buffers) changes no picture. Each polygon adds its area in a pixel times
+// its irradiance at the pixel's centre times its pattern's transmittance; lists are added in their order.
 // Thread-safety: a rasteriser may serve several threads at once; a batch belongs to one, except for set().
 #pragma once
 

@@ -12,15 +12,15 @@ struct Range {
   float low, high;
 };
 
-// The range of a field over the corners of a cell, extended at both ends by `reach` times their difference.
-Range range_of(const float* field, const std::array<std::size_t, 4>& corners, float reach) {
+// The range of a field over the corners of a cell, extended at both ends by `margin` times their difference.
+Range range_of(const float* field, const std::array<std::size_t, 4>& corners, float margin) {
   const float a = field[corners[0]];
   const float b = field[corners[1]];
   const float c = field[corners[2]];
   const float d = field[corners[3]];
   const float low = std::min(std::min(a, b), std::min(c, d));
   const float high = std::max(std::max(a, b), std::max(c, d));
-  const float more = reach * (high - low);
+  const float more = margin * (high - low);
   return {low - more, high + more};
 }
 
@@ -70,22 +70,22 @@ double ClearanceGrid::arrives_after(std::size_t farther, std::size_t nearer) con
 }
 
 float ClearanceGrid::excess(std::size_t ray) const {
-  float most = 0.0F;
+  float largest = 0.0F;
   for (std::size_t c = 0; c <= static_cast<std::size_t>(crossings()); ++c) {
     const auto [x, y] = rays_.in_circle(c, ray);
-    most = std::max(most, x * x + y * y);
+    largest = std::max(largest, x * x + y * y);
   }
-  return most - 1.0F;
+  return largest - 1.0F;
 }
 
-bool ClearanceGrid::may_reach_circle(std::size_t circle, const std::array<std::size_t, 4>& corners, float reach) const {
+bool ClearanceGrid::may_meet_circle(std::size_t circle, const std::array<std::size_t, 4>& corners, float margin) const {
   const std::size_t k = ClearanceRays::kRim + 2 * circle;
-  const float x = distance_to_zero(range_of(rays_.field(k), corners, reach));
-  const float y = distance_to_zero(range_of(rays_.field(k + 1), corners, reach));
+  const float x = distance_to_zero(range_of(rays_.field(k), corners, margin));
+  const float y = distance_to_zero(range_of(rays_.field(k + 1), corners, margin));
   return x * x + y * y <= 1.0F;
 }
 
-bool ClearanceGrid::may_transmit(GridCell cell, float reach) const {
+bool ClearanceGrid::may_transmit(GridCell cell, float margin) const {
   std::array<std::size_t, 4> corners{at(cell.column, cell.row), at(cell.column + 1, cell.row),
                                      at(cell.column, cell.row + 1), at(cell.column + 1, cell.row + 1)};
   // A ray that fails is ignored: the others decide.
@@ -94,7 +94,7 @@ bool ClearanceGrid::may_transmit(GridCell cell, float reach) const {
   if (one == corners.end()) return false;
   std::replace_if(corners.begin(), corners.end(), [&](std::size_t ray) { return !known(ray); }, std::size_t{*one});
   for (int c = 0; c <= crossings(); ++c) {
-    if (!may_reach_circle(static_cast<std::size_t>(c), corners, reach)) return false;
+    if (!may_meet_circle(static_cast<std::size_t>(c), corners, margin)) return false;
   }
   return true;
 }
@@ -104,12 +104,12 @@ int ClearanceGrid::open_corners(GridCell cell) const {
          open_[at(cell.column, cell.row + 1)] + open_[at(cell.column + 1, cell.row + 1)];
 }
 
-std::vector<std::vector<GridCell>> ClearanceGrid::components(float reach) const {
+std::vector<std::vector<GridCell>> ClearanceGrid::components(float margin) const {
   const auto index = [&](int column, int row) { return static_cast<std::size_t>(row * columns_ + column); };
   std::vector<std::uint8_t> left(static_cast<std::size_t>(columns_ * rows_));
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      left[index(column, row)] = may_transmit({column, row}, reach) ? 1 : 0;
+      left[index(column, row)] = may_transmit({column, row}, margin) ? 1 : 0;
     }
   }
   std::vector<std::vector<GridCell>> out;

@@ -51,13 +51,13 @@ class ClearanceGrid {
     return {x, y};
   }
 
-  // True if light may pass through a cell, provided that fields exceed their corner values by at most `reach` times the
-  // corners' difference.
-  [[nodiscard]] bool may_transmit(GridCell cell, float reach) const;
+  // True if light may pass through a cell, provided that fields exceed their corner values by at most `margin` times
+  // the corners' difference.
+  [[nodiscard]] bool may_transmit(GridCell cell, float margin) const;
   [[nodiscard]] int open_corners(GridCell cell) const;
 
   // The connected components of cells that may transmit light; cells that touch at a corner are connected.
-  [[nodiscard]] std::vector<std::vector<GridCell>> components(float reach) const;
+  [[nodiscard]] std::vector<std::vector<GridCell>> components(float margin) const;
   // The box enlarged by a fraction of its size on every side at which rays get through, within bounds.
   [[nodiscard]] Rectangle grown(double fraction, const Rectangle& bounds) const;
 
@@ -65,7 +65,7 @@ class ClearanceGrid {
 
  private:
   // True if a point of the unit circle may be reached in a cell, by its x and y: ClearanceRays::in_circle.
-  [[nodiscard]] bool may_reach_circle(std::size_t circle, const std::array<std::size_t, 4>& corners, float reach) const;
+  [[nodiscard]] bool may_meet_circle(std::size_t circle, const std::array<std::size_t, 4>& corners, float margin) const;
   void find_open();
 
   ClearanceRays rays_;

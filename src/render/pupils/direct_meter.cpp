@@ -49,11 +49,11 @@ bool all_arrived(const RayGrid& grid) {
 
 // True if a rim comes near the light that the iris transmits.
 bool is_cut_by_rims(const RayGrid& grid) {
-  for (std::size_t k = 0; k < grid.r_rel.size(); ++k) {
+  for (std::size_t k = 0; k < grid.relative_height.size(); ++k) {
     float iris = -kFailed;
     for (std::size_t c = 0; c < static_cast<std::size_t>(grid.stop_crossings()); ++c)
       iris = std::max(iris, grid.iris_distance[c][k]);
-    if (iris < kNearRim && grid.r_rel[k] > 1.0F - kNearRim) return true;
+    if (iris < kNearRim && grid.relative_height[k] > 1.0F - kNearRim) return true;
   }
   return false;
 }

@@ -64,8 +64,8 @@ constexpr double kMin_mm = 1e-9, kMax_mm = 1e9;  // of a square
 
 // Candidates for the peak: the brightest cell, and points where many parts of the pupil overlap, by a hash table of
 // squares of the sensor. (A hash collision only adds a candidate that is no peak.)
-std::vector<Vec2> bright_places(const std::vector<OpenMesh>& meshes, double pixel_mm) {
-  constexpr std::size_t kBits = 11, kMaxPlaces = 6;
+std::vector<Vec2> bright_points(const std::vector<OpenMesh>& meshes, double pixel_mm) {
+  constexpr std::size_t kBits = 11, kMaxPoints = 6;
   constexpr double kFarthest = 1e15;  // squares, which can be counted
   std::vector<std::pair<double, Vec2>> table(std::size_t{1} << kBits);
   std::pair<double, Vec2> brightest{0.0, {}};
@@ -86,11 +86,11 @@ std::vector<Vec2> bright_places(const std::vector<OpenMesh>& meshes, double pixe
     });
   }
   const auto is_brighter = [](const auto& a, const auto& b) { return a.first > b.first; };
-  std::partial_sort(table.begin(), table.begin() + kMaxPlaces, table.end(), is_brighter);
-  std::vector<Vec2> places{brightest.second};
-  for (std::size_t k = 0; k < kMaxPlaces; ++k)
-    if (table[k].first > 0.0) places.push_back(table[k].second);
-  return places;
+  std::partial_sort(table.begin(), table.begin() + kMaxPoints, table.end(), is_brighter);
+  std::vector<Vec2> points{brightest.second};
+  for (std::size_t k = 0; k < kMaxPoints; ++k)
+    if (table[k].first > 0.0) points.push_back(table[k].second);
+  return points;
 }
 
 // All light that lands in a window: area on the entrance plane (mm^2) times transmittance.
@@ -114,9 +114,9 @@ double light_within(const TriangleWindow& window, const std::vector<OpenMesh>& m
 }
 
 // The mean over a square about a point.
-double mean_about(Vec2 place, const std::vector<OpenMesh>& meshes, double pixel_mm) {
+double mean_about(Vec2 point, const std::vector<OpenMesh>& meshes, double pixel_mm) {
   const Vec2 half{0.5 * pixel_mm, 0.5 * pixel_mm};
-  return light_within(TriangleWindow({place - half, place + half}), meshes) / (pixel_mm * pixel_mm);
+  return light_within(TriangleWindow({point - half, point + half}), meshes) / (pixel_mm * pixel_mm);
 }
 
 }  // namespace
@@ -174,8 +174,8 @@ double Footprint::flux_within_mm2(const Rectangle& sensor_mm) const {
 double Footprint::peak_per_mm2(double pixel_mm) const {
   double peak = 0.0;
   if (pixel_mm >= kMin_mm && pixel_mm <= kMax_mm) {
-    for (const Vec2 place : bright_places(meshes_, pixel_mm))
-      peak = std::max(peak, mean_about(place, meshes_, pixel_mm));
+    for (const Vec2 point : bright_points(meshes_, pixel_mm))
+      peak = std::max(peak, mean_about(point, meshes_, pixel_mm));
     return peak * shared_flux_;
   }
   for (const OpenMesh& mesh : meshes_)

@@ -10,7 +10,7 @@
 namespace contrejour::inline internal::pupils {
 namespace {
 
-constexpr MeshDensity kFineMesh{33, 120, 1e-4}, kRoughMesh{9, 12, 2e-2};
+constexpr MeshDensity kFineMesh{33, 120, 1e-4}, kCoarseMesh{9, 12, 2e-2};
 
 LightFrame frame_of(const PupilRequest& request) {
   return LightFrame(request.light, has_axial_symmetry(request.steps.lens(), request.ghost));
@@ -29,26 +29,26 @@ struct PupilSamples {
   std::vector<float> x_mm, y_mm;     // from there
   std::vector<double> weight;        // the open area that each represents, up to a common factor
   double light = 0.0;                // weights times transmissions, summed
-  double apart_mm = 0.0;             // smallest distance of neighbouring rays
+  double spacing_mm = 0.0;             // smallest distance of neighbouring rays
 };
 
 // Adds vertices of a mesh as samples, one for each equal step of open area, block by block, so that samples cover the
 // whole mesh. sum_mm2: the open area of the preceding meshes.
 void add_samples(const OpenMesh& mesh, double step_mm2, double& sum_mm2, PupilSamples& samples) {
-  std::vector<bool> seen(mesh.weight.size(), false);
+  std::vector<bool> visited(mesh.weight.size(), false);
   const Vec2 origin = mesh.origin_mm - samples.origin_mm;
   for (const Block& block : mesh.blocks) {
     for (std::size_t k = 0; k < block.vertex.size(); ++k) {
       const std::size_t vertex = block.vertex[k];
-      if (seen[vertex]) continue;
-      seen[vertex] = true;
+      if (visited[vertex]) continue;
+      visited[vertex] = true;
       const double before = std::round(sum_mm2 / step_mm2);
       sum_mm2 += std::max(mesh.weight[vertex], 0.0);
       const double steps = std::round(sum_mm2 / step_mm2) - before;
       if (!(steps > 0.0)) continue;
-      const Vec2 place = origin + block.low_mm;
-      samples.x_mm.push_back(static_cast<float>(place.x + static_cast<double>(k % 3) * mesh.step_mm.x));
-      samples.y_mm.push_back(static_cast<float>(place.y + static_cast<double>(k / 3) * mesh.step_mm.y));
+      const Vec2 point = origin + block.low_mm;
+      samples.x_mm.push_back(static_cast<float>(point.x + static_cast<double>(k % 3) * mesh.step_mm.x));
+      samples.y_mm.push_back(static_cast<float>(point.y + static_cast<double>(k / 3) * mesh.step_mm.y));
       samples.weight.push_back(steps);
       samples.light += steps * mesh.transmission[vertex];
     }
@@ -60,10 +60,10 @@ PupilSamples samples_of(const std::vector<OpenMesh>& meshes) {
   constexpr int kSamples = 32;
   PupilSamples samples;
   samples.origin_mm = meshes.front().origin_mm;
-  samples.apart_mm = meshes.front().step_mm.x;
+  samples.spacing_mm = meshes.front().step_mm.x;
   double open_mm2 = 0.0;
   for (const OpenMesh& mesh : meshes) {
-    samples.apart_mm = std::min({samples.apart_mm, mesh.step_mm.x, mesh.step_mm.y});
+    samples.spacing_mm = std::min({samples.spacing_mm, mesh.step_mm.x, mesh.step_mm.y});
     for (const double weight : mesh.weight) open_mm2 += std::max(weight, 0.0);
   }
   double sum_mm2 = 0.0;
@@ -77,7 +77,7 @@ double ratio_at(const PupilRequest& request, const LightFrame& light, const Iris
   const LightRays from{{0.0, 0.0, request.window.z_mm}, light.source};
   PacketPath path(request.steps.at(lambda_nm), request.ghost, from, request.stop_times);
   rays.trace_points(path, iris, light, samples.origin_mm, samples.x_mm, samples.y_mm,
-                    search_precision(samples.apart_mm));
+                    search_precision(samples.spacing_mm));
   double sum = 0.0;
   for (std::size_t k = 0; k < samples.weight.size(); ++k)
     if (std::isfinite(rays.blocked[k])) sum += samples.weight[k] * rays.transmission[k];
@@ -100,7 +100,7 @@ std::vector<double> approximate_fluxes_within(const PupilRequest& request, const
   const std::vector<Rectangle> boxes = disjoint(searched.boxes);
   const LightFrame light = frame_of(request);
   const auto footprint_at = [&](double nm) {
-    return Footprint(tracer_of(request, light, iris, nm, kRoughMesh).trace(boxes), light.source.shared_flux());
+    return Footprint(tracer_of(request, light, iris, nm, kCoarseMesh).trace(boxes), light.source.shared_flux());
   };
   const double middle_nm = middle_wavelength(request);
   const Footprint middle = footprint_at(middle_nm);

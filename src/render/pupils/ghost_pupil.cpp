@@ -33,7 +33,7 @@ Rectangle with_margin(const Rectangle& box) {
 }
 
 // The same for a box of a symmetric pupil, which stays on its side of the axis of symmetry.
-Rectangle with_margin_aside(const Rectangle& box) {
+Rectangle with_side_margin(const Rectangle& box) {
   Rectangle out = with_margin(box);
   if (box.low.y >= 0.0) out.low.y = std::max(out.low.y, 0.0);
   return out;
@@ -141,7 +141,7 @@ GhostPupil search_ghost_pupil(const PupilRequest& request) {
   GhostPupil pupil{{}, found.rays, found.rays * rays.path.steps().size()};
   for (const Rectangle& box : found.boxes) {
     if (is_mirror_image(box)) continue;
-    pupil.boxes.push_back(with_margin_aside(box));
+    pupil.boxes.push_back(with_side_margin(box));
     if (pupil.boxes.back().low.y >= 0.0) pupil.boxes.push_back(mirrored(pupil.boxes.back()));
   }
   return pupil;

@@ -10,8 +10,8 @@ namespace {
 constexpr int kFirstIntervals = 47;
 constexpr int kParts = 3;  // parts of an interval that is refined
 constexpr int kRounds = 2;
-constexpr std::size_t kMaxLooks = 12;  // intervals a round
-constexpr float kIntervalReach = 0.5F;          // of the difference of an interval's ends, beyond them
+constexpr std::size_t kMaxExamined = 12;  // intervals a round
+constexpr float kIntervalMargin = 0.5F;          // of the difference of an interval's ends, beyond them
 constexpr int kDeepRounds = 12;         // refinements about rays that fail last, each kParts times finer
 constexpr std::size_t kMaxRuns = 3;    // runs of rays that fail last, a round
 constexpr double kHopeless = 0.25;      // of the least failing: rays between would still fail by more than this
@@ -38,7 +38,7 @@ void MeridianScan::trace(const std::vector<double>& x_mm) {
   for (std::size_t k = 0; k < count; ++k) {
     Node node{x_mm[k], rays_.field(ClearanceRays::kFailing)[k], rays_.field(ClearanceRays::kPassed)[k], {}};
     for (std::size_t c = 0; c <= static_cast<std::size_t>(rays_.crossings()); ++c)
-      node.place[c] = rays_.in_circle(c, k)[0];
+      node.point[c] = rays_.in_circle(c, k)[0];
     nodes_.push_back(node);
   }
   std::inplace_merge(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(known), nodes_.end(),
@@ -48,7 +48,7 @@ void MeridianScan::trace(const std::vector<double>& x_mm) {
 bool MeridianScan::is_open(const Node& node) const {
   if (node.failing != 0.0F) return false;
   for (std::size_t c = 0; c < 1 + static_cast<std::size_t>(rays_.crossings()); ++c) {
-    if (!(std::abs(node.place[c]) <= 1.0F)) return false;
+    if (!(std::abs(node.point[c]) <= 1.0F)) return false;
   }
   return true;
 }
@@ -61,14 +61,14 @@ bool MeridianScan::may_transmit(std::size_t k) const {
   if (a.failing != 0.0F) return is_open(b);
   if (b.failing != 0.0F) return is_open(a);
   for (std::size_t c = 0; c < 1 + static_cast<std::size_t>(rays_.crossings()); ++c) {
-    const float more = kIntervalReach * std::abs(a.place[c] - b.place[c]);
-    if (std::min(a.place[c], b.place[c]) - more > 1.0F || std::max(a.place[c], b.place[c]) + more < -1.0F) return false;
+    const float more = kIntervalMargin * std::abs(a.point[c] - b.point[c]);
+    if (std::min(a.point[c], b.point[c]) - more > 1.0F || std::max(a.point[c], b.point[c]) + more < -1.0F) return false;
   }
   return true;
 }
 
 // True if rays between node k and the next must be traced to decide.
-bool MeridianScan::is_worth_a_look(std::size_t k) const {
+bool MeridianScan::may_hide_light(std::size_t k) const {
   const Node& a = nodes_[k];
   const Node& b = nodes_[k + 1];
   if (a.failing == 0.0F && b.failing == 0.0F) return may_transmit(k) && !(is_open(a) && is_open(b));
@@ -81,15 +81,15 @@ bool MeridianScan::is_worth_a_look(std::size_t k) const {
   return (k > 0 && falls_to_zero(nodes_[k - 1], a)) || (k + 2 < nodes_.size() && falls_to_zero(nodes_[k + 2], b));
 }
 
-void MeridianScan::look_into(Interval i, std::vector<double>& x_mm) {
+void MeridianScan::subdivide(Interval i, std::vector<double>& x_mm) {
   for (int p = 1; p < kParts; ++p) x_mm.push_back(i.low + (i.high - i.low) * p / kParts);
 }
 
-// True if `failing`, which falls from the preceding node to `least`, may reach 0 beyond it, before the next node, which
-// fails at an earlier test; or between the nodes if all three fail at the same test.
-bool MeridianScan::may_end(std::size_t least, std::ptrdiff_t step) const {
+// True if `failing`, which falls from the preceding node to `least_failing`, may reach 0 beyond it, before the next
+// node, which fails at an earlier test; or between the nodes if all three fail at the same test.
+bool MeridianScan::may_end(std::size_t least_failing, std::ptrdiff_t step) const {
   const auto at = [&](std::ptrdiff_t by) -> const Node* {
-    const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(least) + by;
+    const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(least_failing) + by;
     const bool exists = k >= 0 && k < static_cast<std::ptrdiff_t>(nodes_.size());
     return exists ? &nodes_[static_cast<std::size_t>(k)] : nullptr;
   };
@@ -102,22 +102,22 @@ bool MeridianScan::may_end(std::size_t least, std::ptrdiff_t step) const {
 
 // Refines where all rays fail: about those that fail at the last test, where they fail least, since rays that get
 // through pass that test as well. False if there is nothing to refine.
-bool MeridianScan::look_deeper(std::vector<double>& x_mm) const {
-  const float deepest = std::ranges::max(nodes_, {}, &Node::passed).passed;
-  std::vector<std::size_t> least;  // of each run of nodes at that test, the node that fails least
+bool MeridianScan::refine_near_light(std::vector<double>& x_mm) const {
+  const float most_passed = std::ranges::max(nodes_, {}, &Node::passed).passed;
+  std::vector<std::size_t> least_failing;  // of each run of nodes at that test, the node that fails least
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (nodes_[k].passed != deepest) continue;
-    const bool starts = k == 0 || nodes_[k - 1].passed != deepest;
+    if (nodes_[k].passed != most_passed) continue;
+    const bool starts = k == 0 || nodes_[k - 1].passed != most_passed;
     if (starts)
-      least.push_back(k);
-    else if (nodes_[k].failing < nodes_[least.back()].failing)
-      least.back() = k;
+      least_failing.push_back(k);
+    else if (nodes_[k].failing < nodes_[least_failing.back()].failing)
+      least_failing.back() = k;
   }
-  std::ranges::stable_sort(least, {}, [&](std::size_t k) { return nodes_[k].failing; });
-  if (least.size() > kMaxRuns) least.resize(kMaxRuns);
-  for (const std::size_t k : least) {
-    if (k > 0 && may_end(k, -1)) look_into({nodes_[k - 1].x_mm, nodes_[k].x_mm}, x_mm);
-    if (k + 1 < nodes_.size() && may_end(k, 1)) look_into({nodes_[k].x_mm, nodes_[k + 1].x_mm}, x_mm);
+  std::ranges::stable_sort(least_failing, {}, [&](std::size_t k) { return nodes_[k].failing; });
+  if (least_failing.size() > kMaxRuns) least_failing.resize(kMaxRuns);
+  for (const std::size_t k : least_failing) {
+    if (k > 0 && may_end(k, -1)) subdivide({nodes_[k - 1].x_mm, nodes_[k].x_mm}, x_mm);
+    if (k + 1 < nodes_.size() && may_end(k, 1)) subdivide({nodes_[k].x_mm, nodes_[k + 1].x_mm}, x_mm);
   }
   std::ranges::sort(x_mm);
   const auto [first, last] = std::ranges::unique(x_mm);
@@ -131,9 +131,9 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   trace(x_mm);
   for (int round = 0; round < kRounds; ++round) {
     x_mm.clear();
-    for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMaxLooks * (kParts - 1); ++k) {
+    for (std::size_t k = 0; k + 1 < nodes_.size() && x_mm.size() < kMaxExamined * (kParts - 1); ++k) {
       const Interval i{nodes_[k].x_mm, nodes_[k + 1].x_mm};
-      if (!reaches(i, boxes) && is_worth_a_look(k)) look_into(i, x_mm);
+      if (!reaches(i, boxes) && may_hide_light(k)) subdivide(i, x_mm);
     }
     if (x_mm.empty()) break;
     trace(x_mm);
@@ -141,7 +141,7 @@ std::vector<Interval> MeridianScan::find(Interval line, std::span<const Rectangl
   const auto fails = [](const Node& node) { return node.failing != 0.0F; };
   for (int round = 0; boxes.empty() && round < kDeepRounds && std::ranges::all_of(nodes_, fails); ++round) {
     x_mm.clear();
-    if (!look_deeper(x_mm)) break;
+    if (!refine_near_light(x_mm)) break;
     trace(x_mm);
   }
   std::vector<Interval> found;

@@ -31,15 +31,15 @@ class MeridianScan {
   struct Node {
     double x_mm = 0;
     float failing = 0, passed = 0;
-    std::array<float, 1 + kMaxStopCrossings> place{};  // x at the largest relative height, then at the stop
+    std::array<float, 1 + kMaxStopCrossings> point{};  // x at the largest relative height, then at the stop
   };
   void trace(const std::vector<double>& x_mm);
   [[nodiscard]] bool may_transmit(std::size_t k) const;
-  [[nodiscard]] bool is_worth_a_look(std::size_t k) const;
+  [[nodiscard]] bool may_hide_light(std::size_t k) const;
   [[nodiscard]] bool is_open(const Node& node) const;
-  static void look_into(Interval i, std::vector<double>& x_mm);
-  [[nodiscard]] bool may_end(std::size_t least, std::ptrdiff_t step) const;
-  [[nodiscard]] bool look_deeper(std::vector<double>& x_mm) const;
+  static void subdivide(Interval i, std::vector<double>& x_mm);
+  [[nodiscard]] bool may_end(std::size_t least_failing, std::ptrdiff_t step) const;
+  [[nodiscard]] bool refine_near_light(std::vector<double>& x_mm) const;
 
   ClearanceRays rays_;
   std::vector<Node> nodes_;  // by rising x

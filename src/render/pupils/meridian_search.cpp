@@ -15,11 +15,11 @@ namespace {
 constexpr int kFirstColumns = 12;  // of the first grid, over the window; half as many rows from y = 0 up
 constexpr int kZoomColumns = 8;        // of the other grids; half as many rows for boxes that touch y = 0
 constexpr int kMaxColumns = 32;
-constexpr float kFirstReach = 1.0F;  // ClearanceGrid::may_transmit
-constexpr float kBoxReach = 0.5F;
+constexpr float kFirstMargin = 1.0F;  // ClearanceGrid::may_transmit
+constexpr float kBoxMargin = 0.5F;
 constexpr double kGrowth = 1.0;  // of a box's size, on a side at which rays get through
 constexpr int kMaxGrowths = 2;
-constexpr int kDeepestZoom = 12;     // levels of grids, each in a part of the preceding one
+constexpr int kMaxZoomDepth = 12;     // levels of grids, each in a part of the preceding one
 constexpr int kMaxDark = 2;     // consecutive levels without a ray that gets through
 constexpr std::uint64_t kMaxRays = 3000;
 constexpr double kTight = 0.4;         // fraction of open corners at which cells fit well enough
@@ -29,7 +29,7 @@ constexpr double kConvergedStep = 0.15;      // stop radii, error of an aim that
 constexpr int kFitColumns = 8;
 constexpr double kWidening = 0.2;  // of a box's size, on a side whose border transmits light
 constexpr int kMaxWidenings = 4;
-constexpr float kFitReach = 0.5F;  // ClearanceGrid::may_transmit
+constexpr float kFitMargin = 0.5F;  // ClearanceGrid::may_transmit
 
 double area_if_any(const Rectangle& r) { return std::max(r.high.x - r.low.x, 0.0) * std::max(r.high.y - r.low.y, 0.0); }
 
@@ -58,7 +58,7 @@ class MeridianSearch {
 
   Pupil run() {
     grid_.trace(half_, kFirstColumns, kFirstColumns / 2);
-    consider({half_}, kFirstReach);
+    consider({half_}, kFirstMargin);
     search_parts();
     for (const Interval& i : meridian_.find({half_.low.x, half_.high.x}, boxes_)) {
       const double width = i.high - i.low;
@@ -79,13 +79,13 @@ class MeridianSearch {
         if (next.low == part.box.low && next.high == part.box.high) break;
         part.box = next;
       }
-      consider(part, kBoxReach);
+      consider(part, kBoxMargin);
     }
   }
 
   // Each connected piece of the grid over `part` becomes a box or a part to be searched, or is dropped.
-  void consider(const Part& part, float reach) {
-    for (const auto& piece : grid_.components(reach)) {
+  void consider(const Part& part, float margin) {
+    for (const auto& piece : grid_.components(margin)) {
       const Rectangle hull = grid_.hull(piece);
       int open = 0;
       for (const GridCell& cell : piece) open += grid_.open_corners(cell);
@@ -102,7 +102,7 @@ class MeridianSearch {
       const bool tight = open >= kTight * 4.0 * static_cast<double>(piece.size());
       const int dark = open > 0 ? 0 : part.dark + 1;
       const bool last =
-          part.depth == kDeepestZoom || grid_.rays() > kMaxRays || (!shrunk && part.columns >= kMaxColumns);
+          part.depth == kMaxZoomDepth || grid_.rays() > kMaxRays || (!shrunk && part.columns >= kMaxColumns);
       if (open > 0 && ((tight && !shrunk) || last)) {
         add_box(next);
       } else if (!last && dark < kMaxDark) {
@@ -144,7 +144,7 @@ Pupil search_meridian_around(const PupilRays& rays, const Rectangle& hint) {
     half = next;
   }
   std::optional<Rectangle> hull;
-  for (const auto& piece : grid.components(kFitReach)) {
+  for (const auto& piece : grid.components(kFitMargin)) {
     const Rectangle one = grid.hull(piece);
     if (!hull) hull = one;
     hull->low = {std::min(hull->low.x, one.low.x), std::min(hull->low.y, one.low.y)};

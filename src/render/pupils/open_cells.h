@@ -13,15 +13,16 @@
 namespace contrejour::inline internal::pupils {
 
 // The lowest and highest value of a function at a cell's corners; the cell is open where the function is <= 0. The
-// function is assumed nearly linear: it falls below its lowest corner by at most `reach` times the corners' difference.
+// function is assumed nearly linear: it falls below its lowest corner by at most `margin` times the corners'
+// difference.
 class Extremes {
  public:
   void add(float value) {
     lowest_ = std::min(lowest_, value);
     highest_ = std::max(highest_, value);
   }
-  [[nodiscard]] bool may_transmit(float reach) const {
-    return lowest_ <= 0.0F || lowest_ <= reach * (highest_ - lowest_);
+  [[nodiscard]] bool may_transmit(float margin) const {
+    return lowest_ <= 0.0F || lowest_ <= margin * (highest_ - lowest_);
   }
 
  private:
@@ -43,7 +44,7 @@ template <class StopDistance>
     if (grid.blocked[k] <= 0.0F) return true;
     if (grid.blocked[k] == kFailed) continue;
     any = true;
-    extremes[0].add(grid.r_rel[k] - 1.0F);
+    extremes[0].add(grid.relative_height[k] - 1.0F);
     for (std::size_t c = 0; c < crossings; ++c) extremes[1 + c].add(stop_distance(c, k));
   }
   return any && std::all_of(extremes.begin(), extremes.begin() + 1 + static_cast<std::ptrdiff_t>(crossings),

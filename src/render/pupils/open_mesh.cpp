@@ -14,7 +14,7 @@ namespace {
 constexpr int kMaxShrinkings = 3;
 constexpr double kWorthShrinking = 0.5;  // of the area
 constexpr double kFull = 0.4;            // fraction of open rays above which a box is not shrunk
-constexpr int kDeepest = 5;              // levels of finer meshes, each with cells of half the size
+constexpr int kMaxRefinement = 5;              // levels of finer meshes, each with cells of half the size
 constexpr std::size_t kMaxFiner = 400;  // blocks of a box that are refined
 constexpr std::array<std::size_t, 4> kWholeBlock{0, 2, 8, 6};
 constexpr std::uint32_t kFinerSide = 5;  // vertices along a side of a refined block
@@ -44,7 +44,7 @@ class BlockWeights {
   [[nodiscard]] double light() const { return light_of(fine_); }
   // The estimated error of the integral.
   [[nodiscard]] double uncertain() const {
-    return highest_ < kFailed ? std::abs(light() - light_of(coarse_)) : beside_;
+    return highest_ < kFailed ? std::abs(light() - light_of(coarse_)) : partly_open_;
   }
   void add_to(std::vector<double>& weight) const {
     const double extrapolated = highest_ < kFailed ? 1.0 / 3.0 : 0.0;
@@ -80,13 +80,13 @@ class BlockWeights {
       const double open = mm2 / 3.0 * fraction_below_zero(blocked[0], blocked[1], blocked[2]);
       for (const std::size_t k : v) weight[k] += open;
       if (*std::ranges::max_element(blocked) > 0.0F)
-        for (const std::size_t k : v) beside_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
+        for (const std::size_t k : v) partly_open_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
       return;
     }
     for (const std::size_t k : v) {
       if (blocked_[k] > 0.0F) continue;
       weight[k] += mm2 / 3.0;
-      beside_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
+      partly_open_ += mm2 / 3.0 * mesh_.transmission[block_.vertex[k]];
     }
   }
 
@@ -95,7 +95,7 @@ class BlockWeights {
   std::array<float, 9> blocked_;
   float lowest_ = kFailed, highest_ = -kFailed;
   Nine fine_{}, coarse_{};
-  double beside_ = 0.0;  // light in partly open triangles
+  double partly_open_ = 0.0;  // light in partly open triangles
 };
 
 std::ptrdiff_t count_open(const RayGrid& grid) {
@@ -118,15 +118,16 @@ std::optional<Rectangle> bounds_of_light(const RayGrid& grid) {
   });
 }
 
-// Fills a mesh's weights, except for up to `most` blocks whose error exceeds `allowed`: these are removed and returned.
-std::vector<Block> weigh(OpenMesh& mesh, double allowed, std::size_t most) {
+// Fills a mesh's weights, except for up to `max_blocks` blocks whose error exceeds `allowed`: these are removed and
+// returned.
+std::vector<Block> weigh(OpenMesh& mesh, double allowed, std::size_t max_blocks) {
   mesh.weight.assign(mesh.blocked.size(), 0.0);
   std::vector<Block> certain, uncertain;
   for (const Block& block : mesh.blocks) {
     BlockWeights weights(mesh, block);
     if (weights.is_dark()) continue;
     weights.find();
-    if (weights.uncertain() > allowed && uncertain.size() < most) {
+    if (weights.uncertain() > allowed && uncertain.size() < max_blocks) {
       uncertain.push_back(block);
     } else {
       certain.push_back(block);
@@ -229,8 +230,9 @@ std::vector<OpenMesh> MeshTracer::trace(const std::vector<Rectangle>& boxes) {
   for (std::size_t k = 0; k < coarse; ++k) {
     std::size_t left = kMaxFiner;
     std::size_t at = k;
-    for (int depth = 0; depth <= kDeepest; ++depth) {
-      const std::vector<Block> uncertain = weigh(meshes[at], density_.uncertain * whole, depth < kDeepest ? left : 0);
+    for (int depth = 0; depth <= kMaxRefinement; ++depth) {
+      const std::vector<Block> uncertain =
+          weigh(meshes[at], density_.uncertain * whole, depth < kMaxRefinement ? left : 0);
       if (uncertain.empty()) break;
       left -= uncertain.size();
       meshes.push_back(finer_mesh(meshes[at], uncertain));

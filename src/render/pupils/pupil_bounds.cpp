@@ -57,7 +57,7 @@ class EntryBuilder {
 
   [[nodiscard]] PupilBounds::Entry build() {
     std::vector<Node> nodes = first_nodes(PupilEffort::Finer);
-    look_again(nodes);
+    search_again(nodes);
     for (std::size_t k = 1; k < nodes.size(); ++k) lay(nodes[k - 1], nodes[k], 0);
     return std::move(entry_);
   }
@@ -71,21 +71,21 @@ class EntryBuilder {
   [[nodiscard]] std::vector<Node> first_nodes(PupilEffort effort) {
     std::vector<Node> nodes;
     for (int k = 0; k < kFirstAngles; ++k) {
-      nodes.push_back(look(largest_angle_rad_ * k / (kFirstAngles - 1), std::nullopt, effort));
+      nodes.push_back(search(largest_angle_rad_ * k / (kFirstAngles - 1), std::nullopt, effort));
     }
     return nodes;
   }
 
   // Repeats the search where no pupil was found although those at other angles are small enough to be missed by the
   // grid, or were not found either.
-  void look_again(std::vector<Node>& nodes) {
+  void search_again(std::vector<Node>& nodes) {
     std::optional<PupilEffort> needed;
     for (const Node& node : nodes) {
       if (node.region) needed = std::max(needed.value_or(PupilEffort::Once), effort_for(node));
     }
     if (needed.value_or(PupilEffort::Finest) != PupilEffort::Finest) return;
     for (Node& node : nodes) {
-      if (!node.region) node = look(node.angle_rad, std::nullopt, PupilEffort::Finest);
+      if (!node.region) node = search(node.angle_rad, std::nullopt, PupilEffort::Finest);
     }
   }
 
@@ -101,7 +101,7 @@ class EntryBuilder {
     return PupilEffort::Finest;
   }
 
-  [[nodiscard]] Node look(double angle_rad, const std::optional<Rectangle>& guess, PupilEffort effort) {
+  [[nodiscard]] Node search(double angle_rad, const std::optional<Rectangle>& guess, PupilEffort effort) {
     const Vec3 direction{std::sin(angle_rad), 0.0, std::cos(angle_rad)};
     const EntranceWindow window = entrance_window(lens_, direction);
     Node node{angle_rad, std::nullopt};
@@ -145,16 +145,16 @@ class EntryBuilder {
   // is known well enough.
   void lay(const Node& a, const Node& b, int depth) {
     const Node middle =
-        look(0.5 * (a.angle_rad + b.angle_rad), guess_between(a, b), std::max(effort_for(a), effort_for(b)));
+        search(0.5 * (a.angle_rad + b.angle_rad), guess_between(a, b), std::max(effort_for(a), effort_for(b)));
     const bool all = a.region && middle.region && b.region;
     const bool none = !a.region && !middle.region && !b.region;
     if (all) {
       const Vec2 size = size_of(middle.region->pupil_mm);
       const Rectangle line = between(a.region->pupil_mm, b.region->pupil_mm, 0.5);
-      const Vec2 bend = farthest_apart(line, middle.region->pupil_mm);
-      if (bend.x <= kMaxInterpolationError * size.x && bend.y <= kMaxInterpolationError * size.y) {
-        push(a, middle, bend + size * kMarginFraction);
-        push(middle, b, bend + size * kMarginFraction);
+      const Vec2 curve = farthest_apart(line, middle.region->pupil_mm);
+      if (curve.x <= kMaxInterpolationError * size.x && curve.y <= kMaxInterpolationError * size.y) {
+        push(a, middle, curve + size * kMarginFraction);
+        push(middle, b, curve + size * kMarginFraction);
         return;
       }
     }

@@ -20,9 +20,9 @@ constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row 
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
-constexpr int kMostGrids = 4;
-constexpr std::size_t kMostInside = 12;  // rays of the interior that are kept,
-constexpr std::size_t kMostBorder = 12;  // and rays of the border
+constexpr int kMaxGrids = 4;
+constexpr std::size_t kMaxInside = 12;  // rays of the interior that are kept,
+constexpr std::size_t kMaxBorder = 12;  // and rays of the border
 constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // border length for each pair of neighbours across it
 
 float length(std::array<float, 2> p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
@@ -95,26 +95,27 @@ class HalvedGrid {
 // A box around the rays that get through, or else around the one that is blocked least; empty where all fail.
 std::optional<Rectangle> next_box(const HalvedGrid& grid) {
   std::optional<Rectangle> hull;
-  std::size_t least = 0;
+  std::size_t least_blocked = 0;
   for (std::size_t k = 0; k < kRays; ++k) {
-    if (grid.outside(k) < grid.outside(least)) least = k;
+    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
     if (!grid.is_open(k)) continue;
     const Vec2 at = grid.start(k);
     if (!hull) hull = Rectangle{at, at};
     hull->low = {std::min(hull->low.x, at.x), std::min(hull->low.y, at.y)};
     hull->high = {std::max(hull->high.x, at.x), std::max(hull->high.y, at.y)};
   }
-  if (!hull && std::isfinite(grid.outside(least))) hull = Rectangle{grid.start(least), grid.start(least)};
+  if (!hull && std::isfinite(grid.outside(least_blocked)))
+    hull = Rectangle{grid.start(least_blocked), grid.start(least_blocked)};
   if (hull) *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
   return hull;
 }
 
 // At most that number of elements, evenly spaced in their order.
 template <class T>
-std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
-  if (all.size() <= most) return all;
+std::vector<T> thinned(const std::vector<T>& all, std::size_t max_count) {
+  if (all.size() <= max_count) return all;
   std::vector<T> some;
-  for (std::size_t k = 0; k < most; ++k) some.push_back(all[(2 * k + 1) * all.size() / (2 * most)]);
+  for (std::size_t k = 0; k < max_count; ++k) some.push_back(all[(2 * k + 1) * all.size() / (2 * max_count)]);
   return some;
 }
 
@@ -133,11 +134,11 @@ void find_border(const HalvedGrid& grid, PupilShape& pupil) {
     if (k % kSide + 1 < kSide) count(k, k + 1);
     if (k + kSide < kRays) count(k, k + kSide);
   }
-  const auto most = std::ranges::max_element(pairs);
-  pupil.bound = static_cast<int>(most - pairs.begin());
-  pupil.bound_share = static_cast<double>(*most) / std::max(std::accumulate(pairs.begin(), pairs.end(), 0), 1);
+  const auto commonest = std::ranges::max_element(pairs);
+  pupil.bound = static_cast<int>(commonest - pairs.begin());
+  pupil.bound_fraction = static_cast<double>(*commonest) / std::max(std::accumulate(pairs.begin(), pairs.end(), 0), 1);
   pupil.border_mm = kRowsPerLength * static_cast<double>(border.size()) * std::sqrt(grid.cell().x * grid.cell().y);
-  pupil.border = thinned(border, kMostBorder);
+  pupil.border = thinned(border, kMaxBorder);
 }
 
 // The open area in halves of cells, where linear interpolation between rays says which part of each half is blocked.
@@ -162,7 +163,7 @@ PupilShape pupil_of(const HalvedGrid& grid, int open) {
     mean = mean + grid.start(k) * (1.0 / open);
     inside_mm.push_back(grid.start(k));
   }
-  pupil.inside_mm = thinned(inside_mm, kMostInside);
+  pupil.inside_mm = thinned(inside_mm, kMaxInside);
   const Vec2 cell = grid.cell();
   pupil.covariance = {{cell.x * cell.x / 12.0, 0.0}, {0.0, cell.y * cell.y / 12.0}};
   pupil.area_mm2 = open_area(grid);
@@ -175,17 +176,17 @@ PupilShape pupil_of(const HalvedGrid& grid, int open) {
     const double from_middle = pupil.is_whole() ? grid.at_stop(pupil.bound, k) : length(d);
     if (!(from_middle < nearest)) continue;
     nearest = from_middle;
-    pupil.at_mm = grid.start(k);
+    pupil.middle_mm = grid.start(k);
   }
   return pupil;
 }
 
-PupilShape in_place(PupilShape pupil, const LightFrame& light) {
-  const LinearMap turn{light.into_place({1.0, 0.0}), light.into_place({0.0, 1.0})};
-  pupil.at_mm = turn(pupil.at_mm);
-  pupil.covariance = turn * pupil.covariance * transposed(turn);
-  for (Vec2& inside_mm : pupil.inside_mm) inside_mm = turn(inside_mm);
-  for (BorderRay& ray : pupil.border) ray.start_mm = turn(ray.start_mm);
+PupilShape in_lens_frame(PupilShape pupil, const LightFrame& light) {
+  const LinearMap rotation{light.to_lens_frame({1.0, 0.0}), light.to_lens_frame({0.0, 1.0})};
+  pupil.middle_mm = rotation(pupil.middle_mm);
+  pupil.covariance = rotation * pupil.covariance * transposed(rotation);
+  for (Vec2& inside_mm : pupil.inside_mm) inside_mm = rotation(inside_mm);
+  for (BorderRay& ray : pupil.border) ray.start_mm = rotation(ray.start_mm);
   return pupil;
 }
 
@@ -196,21 +197,21 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
   HalvedGrid grid(steps, ghost, light, window);
   std::optional<Rectangle> box = grid.box();
   int open = 0;
-  for (int k = 0; k < kMostGrids && box && open < kEnough; ++k) {
+  for (int k = 0; k < kMaxGrids && box && open < kEnough; ++k) {
     grid.trace(*box);
     open = 0;
     for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
     box = next_box(grid);
   }
-  if (open > 0) return in_place(pupil_of(grid, open), light);
-  std::size_t least = 0;
+  if (open > 0) return in_lens_frame(pupil_of(grid, open), light);
+  std::size_t least_blocked = 0;
   for (std::size_t k = 0; k < kRays; ++k)
-    if (grid.outside(k) < grid.outside(least)) least = k;
-  if (!std::isfinite(grid.outside(least))) return std::nullopt;
+    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
+  if (!std::isfinite(grid.outside(least_blocked))) return std::nullopt;
   PupilShape pupil;
-  pupil.outside = grid.outside(least);
+  pupil.outside = grid.outside(least_blocked);
   pupil.area_mm2 = grid.cell().x * grid.cell().y;
-  pupil.at_mm = light.into_place(grid.start(least));
+  pupil.middle_mm = light.to_lens_frame(grid.start(least_blocked));
   return pupil;
 }
 

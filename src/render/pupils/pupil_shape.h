@@ -23,19 +23,19 @@ struct BorderRay {
 
 struct PupilShape {
   int bound = 0;  // the bound that makes most of its border
-  double bound_share = 1.0;
+  double bound_fraction = 1.0;
   bool is_open = false;  // false: no ray gets through; the rest describes the ray blocked least
   double outside = 0.0;  // excess of that ray over what blocks it
   // Start of a ray that gets through: near the middle of the stop where the stop makes nearly all of the border, else
   // near the centroid of all rays that get through.
-  Vec2 at_mm;
-  LinearMap covariance = kNowhere;  // of the starts of all that get through, mm^2
+  Vec2 middle_mm;
+  LinearMap covariance = kZeroMap;  // of the starts of all that get through, mm^2
   double area_mm2 = 0.0;  // area that these starts fill
   double border_mm = 0.0;  // approximate length of its border
   std::vector<Vec2> inside_mm;  // starts of some of them, evenly spaced
   std::vector<BorderRay> border;  // some of the rays at the border, evenly spaced
 
-  [[nodiscard]] bool is_whole() const { return is_open && bound != kRims && bound_share > 0.85; }
+  [[nodiscard]] bool is_whole() const { return is_open && bound != kRims && bound_fraction > 0.85; }
 };
 
 // At the wavelength of the steps. Empty where all rays fail. The iris counts as its circumscribed circle. The window is

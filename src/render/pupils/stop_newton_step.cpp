@@ -11,7 +11,7 @@ constexpr double kStopMargin = 0.06;        // of the stop's radius
 constexpr double kFarthest = 2.0;       // cells from the starting ray
 constexpr double kThirdOrder = 1.0;     // assumed error of the second differences, over their contribution
 constexpr double kLargestError = 0.75;  // with a larger error a box is no better than the grid
-constexpr double kSmallestTurn = 1e-6;  // below it the Jacobian counts as folding
+constexpr double kMinDeterminant = 1e-6;  // below it the Jacobian counts as folding
 constexpr double kAgreement = 0.25;     // with rays that cross near the stop's rim, stop radii
 constexpr double kNear = 2.0;           // stop radii
 
@@ -59,9 +59,9 @@ std::optional<Vec2> zero_of(const Quadratic& q) {
     const Vec2 s = q.at(p);
     const Vec2 dx = q.along_x(p);
     const Vec2 dy = q.along_y(p);
-    const double turn = cross(dx, dy);
-    if (!(std::abs(turn) > kSmallestTurn * (dot(dx, dx) + dot(dy, dy)))) return {};
-    p = p - Vec2{cross(s, dy), cross(dx, s)} * (1.0 / turn);
+    const double determinant = cross(dx, dy);
+    if (!(std::abs(determinant) > kMinDeterminant * (dot(dx, dx) + dot(dy, dy)))) return {};
+    p = p - Vec2{cross(s, dy), cross(dx, s)} * (1.0 / determinant);
     if (!(std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest)) return {};
   }
   return p;
@@ -119,21 +119,21 @@ std::optional<StopNewtonStep> newton_step_to_crossing(const ClearanceGrid& grid,
   if (!zero) return {};
   const Vec2 dx = q->along_x(*zero);
   const Vec2 dy = q->along_y(*zero);
-  const double turn = std::abs(cross(dx, dy));
-  const Vec2 half{length(dy) / turn, length(dx) / turn};  // of the ellipse that maps to the stop's rim
-  const auto bend = [&](Vec2 by) {
+  const double determinant = std::abs(cross(dx, dy));
+  const Vec2 half{length(dy) / determinant, length(dx) / determinant};  // of the ellipse that maps to the stop's rim
+  const auto curve = [&](Vec2 by) {
     return length(q->xx) * by.x * by.x + length(q->xy) * by.x * by.y + length(q->yy) * by.y * by.y;
   };
   const Vec2 away{std::abs(zero->x), std::abs(zero->y)};
-  const double error = bend(half) + kThirdOrder * bend(away);
+  const double error = curve(half) + kThirdOrder * curve(away);
   if (!(error <= kLargestError)) return {};
-  const Vec2 reach = half * (1.0 + kStopMargin + error);
+  const Vec2 half_size = half * (1.0 + kStopMargin + error);
   const Vec2 middle{about->column + zero->x, about->row + zero->y};
-  const CellBox cells{middle - reach, middle + reach};
+  const CellBox cells{middle - half_size, middle + half_size};
   if (!agrees(grid, crossing, piece, *q, *about, cells)) return {};
   const Vec2 size = grid.cell_size();
-  const auto place = [&](Vec2 p) { return grid.box().low + Vec2{p.x * size.x, p.y * size.y}; };
-  return StopNewtonStep{{place(cells.low), place(cells.high)}, error};
+  const auto point = [&](Vec2 p) { return grid.box().low + Vec2{p.x * size.x, p.y * size.y}; };
+  return StopNewtonStep{{point(cells.low), point(cells.high)}, error};
 }
 
 }  // namespace

@@ -19,13 +19,13 @@ class TriangleWindow {
   explicit TriangleWindow(const Rectangle& window) : low_(window.low), high_(window.high) {}
 
   // True if all points lie inside; if all lie beyond the same side.
-  [[nodiscard]] bool holds(std::span<const Vec2> places) const {
+  [[nodiscard]] bool holds(std::span<const Vec2> points) const {
     return std::ranges::all_of(
-        places, [&](Vec2 p) { return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y; });
+        points, [&](Vec2 p) { return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y; });
   }
-  [[nodiscard]] bool misses(std::span<const Vec2> places) const {
+  [[nodiscard]] bool misses(std::span<const Vec2> points) const {
     bool left = true, right = true, below = true, above = true;
-    for (const Vec2 p : places) {
+    for (const Vec2 p : points) {
       left = left && p.x < low_.x;
       right = right && p.x > high_.x;
       below = below && p.y < low_.y;

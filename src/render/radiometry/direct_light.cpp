@@ -18,7 +18,7 @@ namespace {
 // test whether the six predict it; then more, until those before the last predict the last.
 constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
 constexpr std::size_t kManyBands = 16;  // with fewer, all are measured
-constexpr double kForetold = 2e-4;  // relative to the largest flux
+constexpr double kPredictionTolerance = 2e-4;  // relative to the largest flux
 
 // The bands to sample where there are many; an empty set where there are few, which means that all are measured.
 WavelengthSamples samples_of(std::span<const SpectralBand> bands) {
@@ -28,7 +28,7 @@ WavelengthSamples samples_of(std::span<const SpectralBand> bands) {
   return samples.size() == kSamples.back() ? samples : WavelengthSamples({}, 0);
 }
 
-double told(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count, std::size_t band) {
+double predicted(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count, std::size_t band) {
   const std::vector<double> factors = samples.factors(count, band);
   double flux = 0.0;
   for (std::size_t k = 0; k < count; ++k) flux += factors[k] * light.flux_mm2[samples[k]];
@@ -36,11 +36,11 @@ double told(const MeteredLight& light, const WavelengthSamples& samples, std::si
 }
 
 // Whether the fluxes of the first `count` - 1 samples predict that of the next one.
-bool foretell(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count) {
-  double most = 0.0;
-  for (std::size_t k = 0; k < count; ++k) most = std::max(most, light.flux_mm2[samples[k]]);
+bool predicts_last(const MeteredLight& light, const WavelengthSamples& samples, std::size_t count) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, light.flux_mm2[samples[k]]);
   const std::size_t last = samples[count - 1];
-  return std::abs(told(light, samples, count - 1, last) - light.flux_mm2[last]) <= kForetold * most;
+  return std::abs(predicted(light, samples, count - 1, last) - light.flux_mm2[last]) <= kPredictionTolerance * largest;
 }
 
 // Measures one light's fluxes, round by round.
@@ -79,7 +79,7 @@ class LightMeter {
   // Is called once all next_bands() are measured.
   void end_round() {
     const bool all = samples_.size() == 0 || round_ == kSamples.size();
-    if (!all && foretell(light_, samples_, kSamples[round_])) tell_others(kSamples[round_]);
+    if (!all && predicts_last(light_, samples_, kSamples[round_])) interpolate_others(kSamples[round_]);
     is_done_ = is_done_ || all;
     ++round_;
   }
@@ -87,11 +87,11 @@ class LightMeter {
  private:
   [[nodiscard]] std::size_t measured() const { return samples_.size() > 0 && round_ > 0 ? kSamples[round_ - 1] : 0; }
 
-  void tell_others(std::size_t count) {
+  void interpolate_others(std::size_t count) {
     const std::vector<double> measured = light_.flux_mm2;
     std::vector<double> fluxes(measured.size());
     for (std::size_t band = 0; band < fluxes.size(); ++band)
-      fluxes[band] = std::max(0.0, told(light_, samples_, count, band));
+      fluxes[band] = std::max(0.0, predicted(light_, samples_, count, band));
     for (std::size_t k = 0; k < count; ++k) fluxes[samples_[k]] = measured[samples_[k]];
     light_.flux_mm2 = fluxes;
     is_done_ = true;
@@ -122,12 +122,12 @@ bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std
   for (MeteredLight& light : lights) meters.emplace_back(lens, light);
   if (!parallel_for(meters.size(), context, [&](std::size_t k) { meters[k].find_pupil(tables); })) return false;
   while (true) {
-    std::vector<std::pair<std::size_t, std::size_t>> places;  // indices of light and band
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  // indices of light and band
     for (std::size_t k = 0; k < meters.size(); ++k)
-      for (const std::size_t band : meters[k].next_bands()) places.emplace_back(k, band);
-    if (places.empty()) return true;
-    if (!parallel_for(places.size(), context,
-                      [&](std::size_t at) { meters[places[at].first].measure(places[at].second, tables); }))
+      for (const std::size_t band : meters[k].next_bands()) pairs.emplace_back(k, band);
+    if (pairs.empty()) return true;
+    if (!parallel_for(pairs.size(), context,
+                      [&](std::size_t at) { meters[pairs[at].first].measure(pairs[at].second, tables); }))
       return false;
     for (LightMeter& meter : meters) meter.end_round();
   }

@@ -15,7 +15,7 @@
 
 namespace contrejour::inline internal {
 
-// A light at the place where its flux is measured, the bands with their wavelengths, and the bands' direct fluxes in
+// A light at the position where its flux is measured, the bands with their wavelengths, and the bands' direct fluxes in
 // mm^2 at E0 = 1, which measure_fluxes() fills in.
 struct MeteredLight {
   LightSource source;

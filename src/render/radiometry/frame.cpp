@@ -13,9 +13,9 @@
 namespace contrejour {
 namespace {
 
-constexpr double kMostPixels = 268435456.0;  // 2^28
+constexpr double kMaxPixels = 268435456.0;  // 2^28
 constexpr int kFarthestPixel = 1 << 28;           // as far as a line of all pixels is long
-constexpr double kLeastPitch_mm = 1e-8, kMostPitch_mm = 1e6;
+constexpr double kMinPitch_mm = 1e-8, kMaxPitch_mm = 1e6;
 
 }  // namespace
 
@@ -36,16 +36,16 @@ Result<void> check_frame(const Frame& f) {
   if (f.width <= 0 || f.height <= 0 || f.full_width <= 0 || f.full_height <= 0)
     return invalid(
         fmt::format("a frame of {} x {} pixels has no pixels; give a size of at least 1x1", f.width, f.height));
-  if (static_cast<double>(f.width) * f.height > kMostPixels)
+  if (static_cast<double>(f.width) * f.height > kMaxPixels)
     return invalid(fmt::format("a frame of {} x {} pixels is too large; 2^28 pixels are the limit", f.width, f.height));
   const auto is_near = [](int pixels) { return pixels >= -kFarthestPixel && pixels <= kFarthestPixel; };
   if (!is_near(f.origin_x) || !is_near(f.origin_y) || !is_near(f.full_width) || !is_near(f.full_height))
     return invalid(
         fmt::format("a frame of {} x {} pixels at {}, {} is too large or too far away; {} pixels are the limit",
                     f.full_width, f.full_height, f.origin_x, f.origin_y, kFarthestPixel));
-  if (!(f.pixel_pitch_mm >= kLeastPitch_mm && f.pixel_pitch_mm <= kMostPitch_mm))
+  if (!(f.pixel_pitch_mm >= kMinPitch_mm && f.pixel_pitch_mm <= kMaxPitch_mm))
     return invalid(fmt::format("a pixel pitch of {} mm is out of range; choose {} to {}", f.pixel_pitch_mm,
-                               kLeastPitch_mm, kMostPitch_mm));
+                               kMinPitch_mm, kMaxPitch_mm));
   if (!std::isfinite(f.shift_mm.x + f.shift_mm.y)) return invalid("a frame's shift must be finite");
   return {};
 }

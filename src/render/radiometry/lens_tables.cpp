@@ -23,14 +23,14 @@ LensTables::Key::Key(const LensState& lens) {
 
 LensTables::LensTables(const Key& key) : lens_(std::make_shared<const LensState>(key.lens())), tables_(lens_) {}
 
-ReflectedShares LensTables::reflected(std::span<const double> lambda_nm) {
-  reflected_.add(*lens_, lambda_nm);
-  return reflected_;
+GhostReflectances LensTables::reflectances(std::span<const double> lambda_nm) {
+  reflectances_.add(*lens_, lambda_nm);
+  return reflectances_;
 }
 
 void LensTables::forget_if_large() {
   if (tables_.size() > kMaxKept) tables_ = TablesByWavelength(lens_);
-  if (reflected_.size() > kMaxKept) reflected_ = ReflectedShares();
+  if (reflectances_.size() > kMaxKept) reflectances_ = GhostReflectances();
 }
 
 }  // namespace contrejour::inline internal

@@ -11,7 +11,7 @@
 
 #include "contrejour/lens.h"
 #include "optics/trace/by_wavelength.h"
-#include "render/radiometry/reflected_share.h"
+#include "render/radiometry/ghost_reflectances.h"
 
 namespace contrejour::inline internal {
 
@@ -33,7 +33,7 @@ class LensTables {
 
   // Each table is made on first use.
   [[nodiscard]] const TablesByWavelength& tables() const { return tables_; }
-  [[nodiscard]] ReflectedShares reflected(std::span<const double> lambda_nm);
+  [[nodiscard]] GhostReflectances reflectances(std::span<const double> lambda_nm);
 
   // Is called before a new frame: clears the tables if they hold more wavelengths than a few frames have. Tables that
   // were handed out stay valid.
@@ -42,7 +42,7 @@ class LensTables {
  private:
   std::shared_ptr<const LensState> lens_;
   TablesByWavelength tables_;
-  ReflectedShares reflected_;
+  GhostReflectances reflectances_;
 };
 
 }  // namespace contrejour::inline internal

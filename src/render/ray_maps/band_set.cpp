@@ -24,7 +24,7 @@ PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const
   blend.weight.assign(is_one ? 1 : 3, std::vector<double>(count, 0.0));
   if (is_one) blend.gain = passes[band.first].gain;
   for (std::size_t pass = band.first; pass < band.last; ++pass) {
-    const std::vector<double> factors = light_factors(samples, count, pass, rays.straight);
+    const std::vector<double> factors = light_factors(samples, count, pass, rays.is_linear);
     for (std::size_t c = 0; c < blend.weight.size(); ++c) {
       const double gain = is_one ? 1.0 : passes[pass].gain[c];
       for (std::size_t k = 0; k < count; ++k) blend.weight[c][k] += gain * rays.light[pass] * factors[k];
@@ -44,30 +44,30 @@ BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const 
   for (const Band& band : bands) blends_.push_back(blend_of(band, tracers.passes(), samples, rays));
 }
 
-std::vector<RaySheet> BandSet::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
-  std::vector<RaySheet> sheets;
-  for (const std::size_t pass : traced_) sheets.push_back(tracers_.at(pass).trace(box, nodes, precision));
-  return sheets;
+std::vector<LobattoRays> BandSet::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
+  std::vector<LobattoRays> ray_sets;
+  for (const std::size_t pass : traced_) ray_sets.push_back(tracers_.at(pass).trace(box, nodes, precision));
+  return ray_sets;
 }
 
-void BandSet::add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision) {
+void BandSet::add_weights(std::vector<LobattoRays>& ray_sets, PacketPrecision precision) {
   if (!blends_.empty()) {
-    for (RaySheet& sheet : sheets) add_light(sheet, sheet.transmission, {1.0, 1.0, 1.0});
+    for (LobattoRays& ray_set : ray_sets) add_light(ray_set, ray_set.transmission, {1.0, 1.0, 1.0});
     return;
   }
-  RaySheet& sheet = sheets.front();
+  LobattoRays& ray_set = ray_sets.front();
   const Band& band = bands_.front();
   for (std::size_t pass = band.first; pass < band.last; ++pass) {
     const Rgb& gain = tracers_.passes()[pass].gain;
     if (pass == traced_.front())
-      add_light(sheet, sheet.transmission, gain);
+      add_light(ray_set, ray_set.transmission, gain);
     else
-      add_light(sheet, tracers_.at(pass).transmissions(sheet.box, sheet.nodes, precision), gain);
+      add_light(ray_set, tracers_.at(pass).transmissions(ray_set.box, ray_set.nodes, precision), gain);
   }
 }
 
-std::vector<Patch> BandSet::make_patches(std::span<const RaySheet> sheets, const Frame& frame) const {
-  return ray_maps::make_patches(sheets, tracers_.light(), frame);
+std::vector<Patch> BandSet::make_patches(std::span<const LobattoRays> ray_sets, const Frame& frame) const {
+  return ray_maps::make_patches(ray_sets, tracers_.light(), frame);
 }
 
 void BandSet::band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const {

@@ -25,13 +25,13 @@ class BandSet {
   [[nodiscard]] std::size_t size() const { return bands_.size(); }
   [[nodiscard]] const Band& band(std::size_t k) const { return bands_[k]; }
 
-  // Returns one sheet of rays for each traced wavelength.
-  [[nodiscard]] std::vector<RaySheet> trace(const Rectangle& box, int nodes, PacketPrecision precision);
+  // Returns one set of rays for each traced wavelength.
+  [[nodiscard]] std::vector<LobattoRays> trace(const Rectangle& box, int nodes, PacketPrecision precision);
   // Computes the weights that trace() leaves out and that drawing needs.
-  void add_weights(std::vector<RaySheet>& sheets, PacketPrecision precision);
-  // The patches of sheets that have weights, at least one of which has no failed rays; band_patch() computes a band's
+  void add_weights(std::vector<LobattoRays>& ray_sets, PacketPrecision precision);
+  // The patches of ray sets that have weights, at least one of which has no failed rays; band_patch() computes a band's
   // patch from them.
-  [[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const Frame& frame) const;
+  [[nodiscard]] std::vector<Patch> make_patches(std::span<const LobattoRays> ray_sets, const Frame& frame) const;
   void band_patch(std::span<const Patch> patches, std::size_t band, Patch& out) const;
 
  private:

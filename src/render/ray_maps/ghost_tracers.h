@@ -12,7 +12,7 @@
 #include "optics/trace/lens_steps.h"
 #include "render/planning/planned_light.h"
 #include "render/pupils/clearance_grid.h"
-#include "render/ray_maps/ray_sheet.h"
+#include "render/ray_maps/lobatto_rays.h"
 
 namespace contrejour::inline internal::ray_maps {
 
@@ -25,16 +25,16 @@ class GhostTracers {
       : steps_(steps), ghost_(ghost), light_(light), passes_(passes), stop_times_(stop_times), plane_z_mm_(plane_z_mm),
         tracers_(passes.size()) {}
 
-  [[nodiscard]] SheetTracer& at(std::size_t pass) {
-    std::optional<SheetTracer>& tracer = tracers_[pass];
+  [[nodiscard]] LobattoTracer& at(std::size_t pass) {
+    std::optional<LobattoTracer>& tracer = tracers_[pass];
     if (!tracer) tracer.emplace(path(pass), light_);
-    tracer->bend(bend_);
+    tracer->curve(curve_);
     return *tracer;
   }
-  // Sets the bend of the boxes that are traced from here on.
-  void bend(const Bend& bend) { bend_ = bend; }
-  [[nodiscard]] bool is_bent() const { return bend_.is_bent(); }
-  // Where the rays of a pass are blocked.
+  // Sets the curve of the sides of the boxes that are traced from here on.
+  void curve(const SideCurve& curve) { curve_ = curve; }
+  [[nodiscard]] bool is_curved() const { return curve_.is_curved(); }
+  // Finds where the rays of a pass are blocked.
   [[nodiscard]] ClearanceGrid clearance(std::size_t pass) const { return ClearanceGrid(path(pass)); }
 
   [[nodiscard]] const LightFrame& light() const { return light_; }
@@ -47,14 +47,14 @@ class GhostTracers {
     clearance_rays_ += grid.rays();
     clearance_hits_ += grid.rays() * grid.steps();
   }
-  [[nodiscard]] std::uint64_t rays() const { return clearance_rays_ + sum(&SheetTracer::rays); }
-  [[nodiscard]] std::uint64_t surface_hits() const { return clearance_hits_ + sum(&SheetTracer::surface_hits); }
+  [[nodiscard]] std::uint64_t rays() const { return clearance_rays_ + sum(&LobattoTracer::rays); }
+  [[nodiscard]] std::uint64_t surface_hits() const { return clearance_hits_ + sum(&LobattoTracer::surface_hits); }
 
  private:
   [[nodiscard]] PacketPath path(std::size_t pass) const {
     return {steps_.at(passes_[pass].lambda_nm), ghost_, {{0.0, 0.0, plane_z_mm_}, light_.source}, stop_times_};
   }
-  [[nodiscard]] std::uint64_t sum(std::uint64_t (SheetTracer::*of)() const) const {
+  [[nodiscard]] std::uint64_t sum(std::uint64_t (LobattoTracer::*of)() const) const {
     std::uint64_t total = 0;
     for (const auto& tracer : tracers_) total += tracer ? ((*tracer).*of)() : 0;
     return total;
@@ -66,9 +66,9 @@ class GhostTracers {
   std::span<const PlannedPass> passes_;
   double stop_times_;
   double plane_z_mm_;
-  Bend bend_;
+  SideCurve curve_;
   std::uint64_t clearance_rays_ = 0, clearance_hits_ = 0;
-  std::vector<std::optional<SheetTracer>> tracers_;  // one a pass
+  std::vector<std::optional<LobattoTracer>> tracers_;  // one a pass
 };
 
 }  // namespace contrejour::inline internal::ray_maps

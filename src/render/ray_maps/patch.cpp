@@ -29,27 +29,27 @@ const NodeMatrices& matrices(int nodes) {
   return all.at(nodes);
 }
 
-// Copies the heights at the rims of `steps` to fields of their own. Rims beyond kMostRims share the last field.
-void copy_rims(const RaySheet& sheet, const std::vector<std::size_t>& steps, Patch& patch) {
+// Copies the heights at the rims of `steps` to fields of their own. Rims beyond kMaxRims share the last field.
+void copy_rims(const LobattoRays& ray_set, const std::vector<std::size_t>& steps, Patch& patch) {
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    const float* rim = sheet.rim_squared.data() + steps[k] * sheet.count();
-    const int to_rim = std::min(static_cast<int>(k), kMostRims - 1);
+    const float* rim = ray_set.rim_squared.data() + steps[k] * ray_set.count();
+    const int to_rim = std::min(static_cast<int>(k), kMaxRims - 1);
     float* to = patch.field(patch.layout.rim(to_rim));
-    if (sheet.blocks_at(steps[k])) patch.layout.obscurations |= 1U << to_rim;
-    const bool shared = k >= static_cast<std::size_t>(kMostRims);
+    if (ray_set.blocks_at(steps[k])) patch.layout.obscurations |= 1U << to_rim;
+    const bool shared = k >= static_cast<std::size_t>(kMaxRims);
     for (std::size_t node = 0; node < patch.size(); ++node)
       to[node] = shared ? std::max(to[node], rim[node]) : rim[node];
   }
 }
 
-// Whether no light gets through between four rays: all of them are beyond one rim, or on one side of the stop beyond
-// its circle. Values between the rays are means of theirs.
-bool is_closed(const RaySheet& sheet, const std::array<std::size_t, 4>& corners) {
+// Returns whether no light gets through between four rays: all of them are beyond one rim, or on one side of the stop
+// beyond its circle. Values between the rays are means of theirs.
+bool is_closed(const LobattoRays& ray_set, const std::array<std::size_t, 4>& corners) {
   const auto all = [&](auto beyond) { return std::all_of(corners.begin(), corners.end(), beyond); };
-  for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count()) {
-    if (all([&](std::size_t k) { return sheet.rim_squared[at + k] > 1.0F; })) return true;
+  for (std::size_t at = 0; at < ray_set.rim_squared.size(); at += ray_set.count()) {
+    if (all([&](std::size_t k) { return ray_set.rim_squared[at + k] > 1.0F; })) return true;
   }
-  for (const auto& crossing : sheet.stop) {
+  for (const auto& crossing : ray_set.stop) {
     for (const auto& coordinate : crossing) {
       if (all([&](std::size_t k) { return coordinate[k] > 1.0F; })) return true;
       if (all([&](std::size_t k) { return coordinate[k] < -1.0F; })) return true;
@@ -64,56 +64,56 @@ double largest_size(const float* field, std::size_t count) {
   return largest;
 }
 
-Vec2 on_frame(const RaySheet& sheet, std::size_t node, const LightFrame& light, const Frame& frame) {
-  return frame.pixel_from_sensor(light.into_place({sheet.sensor_x_mm[node], sheet.sensor_y_mm[node]}));
+Vec2 on_frame(const LobattoRays& ray_set, std::size_t node, const LightFrame& light, const Frame& frame) {
+  return frame.pixel_from_sensor(light.to_lens_frame({ray_set.sensor_x_mm[node], ray_set.sensor_y_mm[node]}));
 }
 
-// A corner of a pixel near the middle of the sheet's image.
-Vec2 origin_of(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
-  const Vec2 middle = on_frame(sheet, sheet.count() / 2, light, frame);
+// A corner of a pixel near the middle of the ray set's image.
+Vec2 origin_of(const LobattoRays& ray_set, const LightFrame& light, const Frame& frame) {
+  const Vec2 middle = on_frame(ray_set, ray_set.count() / 2, light, frame);
   return {std::floor(middle.x), std::floor(middle.y)};
 }
 
 // steps: path steps whose rims become fields.
-Patch make_patch(const RaySheet& sheet, const std::vector<std::size_t>& steps, Vec2 origin_px, const LightFrame& light,
-                 const Frame& frame) {
+Patch make_patch(const LobattoRays& ray_set, const std::vector<std::size_t>& steps, Vec2 origin_px,
+                 const LightFrame& light, const Frame& frame) {
   Patch patch;
-  patch.nodes = sheet.nodes;
-  patch.box = sheet.box;
-  patch.layout = {static_cast<int>(sheet.stop.size()), std::min(static_cast<int>(steps.size()), kMostRims),
-                  static_cast<int>(sheet.weight.size())};
-  patch.gain = sheet.gain;
-  patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * sheet.count());
-  const Vec2 size = sheet.box.high - sheet.box.low;
+  patch.nodes = ray_set.nodes;
+  patch.box = ray_set.box;
+  patch.layout = {static_cast<int>(ray_set.stop.size()), std::min(static_cast<int>(steps.size()), kMaxRims),
+                  static_cast<int>(ray_set.weight.size())};
+  patch.gain = ray_set.gain;
+  patch.values.resize(static_cast<std::size_t>(patch.layout.fields()) * ray_set.count());
+  const Vec2 size = ray_set.box.high - ray_set.box.low;
   patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
   patch.origin_px = origin_px;
-  for (std::size_t k = 0; k < sheet.count(); ++k) {
-    const Vec2 p = on_frame(sheet, k, light, frame) - origin_px;
+  for (std::size_t k = 0; k < ray_set.count(); ++k) {
+    const Vec2 p = on_frame(ray_set, k, light, frame) - origin_px;
     patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
     patch.field(PatchLayout::kY)[k] = static_cast<float>(p.y);
-    for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-      const Vec2 s = light.into_place({sheet.stop[c][0][k], sheet.stop[c][1][k]});
+    for (std::size_t c = 0; c < ray_set.stop.size(); ++c) {
+      const Vec2 s = light.to_lens_frame({ray_set.stop[c][0][k], ray_set.stop[c][1][k]});
       patch.field(PatchLayout::kStop + 2 * static_cast<int>(c))[k] = static_cast<float>(s.x);
       patch.field(PatchLayout::kStop + 2 * static_cast<int>(c) + 1)[k] = static_cast<float>(s.y);
     }
   }
   for (int k = 0; k < patch.layout.weights; ++k)
-    std::ranges::copy(sheet.weight[static_cast<std::size_t>(k)], patch.field(patch.layout.weight(k)));
-  copy_rims(sheet, steps, patch);
+    std::ranges::copy(ray_set.weight[static_cast<std::size_t>(k)], patch.field(patch.layout.weight(k)));
+  copy_rims(ray_set, steps, patch);
   return patch;
 }
 
 }  // namespace
 
-Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
-  return make_patch(sheet, rims_in_play({&sheet, 1}), origin_of(sheet, light, frame), light, frame);
+Patch make_patch(const LobattoRays& ray_set, const LightFrame& light, const Frame& frame) {
+  return make_patch(ray_set, rims_in_play({&ray_set, 1}), origin_of(ray_set, light, frame), light, frame);
 }
 
-std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light, const Frame& frame) {
-  const auto steps = rims_in_play(sheets);
-  const Vec2 origin_px = origin_of(sheets.front(), light, frame);
+std::vector<Patch> make_patches(std::span<const LobattoRays> ray_sets, const LightFrame& light, const Frame& frame) {
+  const auto steps = rims_in_play(ray_sets);
+  const Vec2 origin_px = origin_of(ray_sets.front(), light, frame);
   std::vector<Patch> patches;
-  for (const RaySheet& sheet : sheets) patches.push_back(make_patch(sheet, steps, origin_px, light, frame));
+  for (const LobattoRays& ray_set : ray_sets) patches.push_back(make_patch(ray_set, steps, origin_px, light, frame));
   return patches;
 }
 
@@ -140,37 +140,38 @@ void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out
   }
 }
 
-std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame) {
-  const auto& points = lobatto_points(sheet.nodes);
-  const Vec2 half = (sheet.box.high - sheet.box.low) * 0.5;
-  const auto n = static_cast<std::size_t>(sheet.nodes);
+std::vector<Patch> patches_of_cells(const LobattoRays& ray_set, const LightFrame& light, const Frame& frame) {
+  const auto& points = lobatto_points(ray_set.nodes);
+  const Vec2 half = (ray_set.box.high - ray_set.box.low) * 0.5;
+  const auto n = static_cast<std::size_t>(ray_set.nodes);
   std::vector<Patch> patches;
   for (std::size_t iy = 0; iy + 1 < n; ++iy) {
     for (std::size_t ix = 0; ix + 1 < n; ++ix) {
       const std::array<std::size_t, 4> corners{iy * n + ix, iy * n + ix + 1, (iy + 1) * n + ix, (iy + 1) * n + ix + 1};
-      if (std::any_of(corners.begin(), corners.end(), [&](std::size_t k) { return std::isinf(sheet.r_rel[k]); }))
+      if (std::any_of(corners.begin(), corners.end(),
+                      [&](std::size_t k) { return std::isinf(ray_set.relative_height[k]); }))
         continue;
-      if (is_closed(sheet, corners)) continue;
+      if (is_closed(ray_set, corners)) continue;
       const auto pick = [&](const std::vector<float>& from, std::vector<float>& to, std::size_t offset = 0) {
         for (const std::size_t k : corners) to.push_back(from[offset + k]);
       };
-      RaySheet cell;
+      LobattoRays cell;
       cell.nodes = 2;
-      cell.box = {sheet.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])},
-                  sheet.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])}};
-      pick(sheet.sensor_x_mm, cell.sensor_x_mm);
-      pick(sheet.sensor_y_mm, cell.sensor_y_mm);
-      pick(sheet.r_rel, cell.r_rel);
-      cell.gain = sheet.gain;
-      cell.weight.resize(sheet.weight.size());
-      for (std::size_t k = 0; k < sheet.weight.size(); ++k) pick(sheet.weight[k], cell.weight[k]);
-      cell.stop.resize(sheet.stop.size());
-      for (std::size_t c = 0; c < sheet.stop.size(); ++c) {
-        for (std::size_t axis = 0; axis < 2; ++axis) pick(sheet.stop[c][axis], cell.stop[c][axis]);
+      cell.box = {ray_set.box.low + Vec2{half.x * (1.0 + points[ix]), half.y * (1.0 + points[iy])},
+                  ray_set.box.low + Vec2{half.x * (1.0 + points[ix + 1]), half.y * (1.0 + points[iy + 1])}};
+      pick(ray_set.sensor_x_mm, cell.sensor_x_mm);
+      pick(ray_set.sensor_y_mm, cell.sensor_y_mm);
+      pick(ray_set.relative_height, cell.relative_height);
+      cell.gain = ray_set.gain;
+      cell.weight.resize(ray_set.weight.size());
+      for (std::size_t k = 0; k < ray_set.weight.size(); ++k) pick(ray_set.weight[k], cell.weight[k]);
+      cell.stop.resize(ray_set.stop.size());
+      for (std::size_t c = 0; c < ray_set.stop.size(); ++c) {
+        for (std::size_t axis = 0; axis < 2; ++axis) pick(ray_set.stop[c][axis], cell.stop[c][axis]);
       }
-      for (std::size_t at = 0; at < sheet.rim_squared.size(); at += sheet.count())
-        pick(sheet.rim_squared, cell.rim_squared, at);
-      cell.blocks_within = sheet.blocks_within;
+      for (std::size_t at = 0; at < ray_set.rim_squared.size(); at += ray_set.count())
+        pick(ray_set.rim_squared, cell.rim_squared, at);
+      cell.blocks_within = ray_set.blocks_within;
       patches.push_back(make_patch(cell, light, frame));
     }
   }

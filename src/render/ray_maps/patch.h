@@ -11,7 +11,7 @@
 
 #include "contrejour/expert/colour.h"
 #include "contrejour/frame.h"
-#include "render/ray_maps/ray_sheet.h"
+#include "render/ray_maps/lobatto_rays.h"
 
 namespace contrejour::inline internal::ray_maps {
 
@@ -33,7 +33,7 @@ struct PatchLayout {
   [[nodiscard]] int fields() const { return weight(weights); }
 };
 
-inline constexpr int kMostRims = 12;
+inline constexpr int kMaxRims = 12;
 
 struct Patch {
   PatchLayout layout;
@@ -49,11 +49,11 @@ struct Patch {
   [[nodiscard]] float* field(int f) { return values.data() + static_cast<std::size_t>(f) * size(); }
 };
 
-// All rays of the sheet must have arrived. Rims that every ray clears by a wide margin are left out.
-[[nodiscard]] Patch make_patch(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
+// All rays of the ray set must have arrived. Rims that every ray clears by a wide margin are left out.
+[[nodiscard]] Patch make_patch(const LobattoRays& ray_set, const LightFrame& light, const Frame& frame);
 
-// The patches of sheets of one box at several wavelengths, with a common origin and the same rims.
-[[nodiscard]] std::vector<Patch> make_patches(std::span<const RaySheet> sheets, const LightFrame& light,
+// The patches of ray sets of one box at several wavelengths, with a common origin and the same rims.
+[[nodiscard]] std::vector<Patch> make_patches(std::span<const LobattoRays> ray_sets, const LightFrame& light,
                                               const Frame& frame);
 
 // The factors, one for each of such patches, that make the patch of a further wavelength or of a band.
@@ -65,7 +65,8 @@ struct PatchBlend {
 void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out);
 
 // Bilinear patches between neighbouring rays that arrived, one for each four rays between which light may pass.
-[[nodiscard]] std::vector<Patch> patches_of_cells(const RaySheet& sheet, const LightFrame& light, const Frame& frame);
+[[nodiscard]] std::vector<Patch> patches_of_cells(const LobattoRays& ray_set, const LightFrame& light,
+                                                  const Frame& frame);
 
 // An estimate of the polynomials' errors, from the size of their highest terms.
 struct PatchError {

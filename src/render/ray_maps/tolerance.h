@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far maps may be off.
+// The tolerance says how far maps may be off.
 // Thread-safety: values.
 #pragma once
 
 #include <functional>
 
-#include "render/ray_maps/ray_sheet.h"
+#include "render/ray_maps/lobatto_rays.h"
 
 namespace contrejour::inline internal::ray_maps {
 
@@ -16,8 +16,8 @@ struct Tolerance {
   double colour_px = 0;  // limit of wavelengths' displacement for correct colours, however dim
 };
 
-// Decides the tolerance for the ghost of a box's sheet. weight: the largest of any channel at any of its nodes, all
+// Decides the tolerance for the ghost of a box's ray set. weight: the largest of any channel at any of its nodes, all
 // wavelengths together. shared_flux: LightSource::shared_flux().
-using ToleranceOf = std::function<Tolerance(const RaySheet& sheet, double weight, double shared_flux)>;
+using ToleranceOf = std::function<Tolerance(const LobattoRays& ray_set, double weight, double shared_flux)>;
 
 }  // namespace contrejour::inline internal::ray_maps

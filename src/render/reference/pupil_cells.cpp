@@ -16,7 +16,7 @@ constexpr double kFailed = std::numeric_limits<double>::infinity();
 constexpr double kUniform = 1e-4;  // a stop pattern this close to 1 all over a cell needs no smaller cells
 constexpr double kNoArea = 1e-300;  // pixels; avoids a division by 0
 constexpr double kNearObscuration = 1.5;  // radii from an obscuration's edge
-constexpr double kUnseen = 0.25;  // fraction of a cut cell's footprint, or of the accuracy of a picture's edge
+constexpr double kNegligible = 0.25;  // fraction of a cut cell's footprint, or of the accuracy of a picture's edge
 
 // A ray from one point of the entrance plane, as far as cells need it.
 struct Sample {
@@ -79,8 +79,8 @@ class CellWalker {
     s.transmission = ray.transmission * light_.flux_at(from);
     s.blocked = blocked_by(ray, path_, iris_);
     s.outside = s.blocked;
-    if (path_.obscured) look_past_obscurations(ray, s);
-    if (iris_.field) look_at_picture(ray, s);
+    if (path_.obscured) trace_past_obscurations(ray, s);
+    if (iris_.field) sample_picture(ray, s);
     for (std::size_t c = 0; c < ray.stop.size(); ++c) s.crossed.stop[c] = ray.stop[c] * stop_.outer_radius();
     if (stop_.has_front()) s.crossed.front_mm = stop_.dirt->site().front_point(entrance_mm, z_mm_, light_);
     return s;
@@ -93,7 +93,7 @@ class CellWalker {
     if (is_dark_and_small(corners, blocking)) return;
     if (outside_frame(corners, middle)) return;
     if (pattern_region(corners, middle) == PatternRegion::Dark) return;
-    if (depth < limits_.deepest && needs_cutting(corners, middle, blocking, depth)) {
+    if (depth < limits_.max_depth && needs_cutting(corners, middle, blocking, depth)) {
       cut(corners, middle, depth);
       return;
     }
@@ -104,9 +104,9 @@ class CellWalker {
 
  private:
   [[nodiscard]] StopTransmittance::Cell stop_cell(const Corners& corners, const Sample& middle,
-                                                  std::array<StopCrossings, 4>& room) const {
-    for (std::size_t k = 0; k < corners.size(); ++k) room[k] = corners[k].crossed;
-    return {room, middle.crossed, static_cast<std::size_t>(path_.stop_crossings)};
+                                                  std::array<StopCrossings, 4>& buffer) const {
+    for (std::size_t k = 0; k < corners.size(); ++k) buffer[k] = corners[k].crossed;
+    return {buffer, middle.crossed, static_cast<std::size_t>(path_.stop_crossings)};
   }
   [[nodiscard]] static bool all_traced(const Corners& corners, const Sample& middle) {
     return middle.traced() && std::ranges::all_of(corners, [](const Sample& s) { return s.traced(); });
@@ -115,14 +115,14 @@ class CellWalker {
   [[nodiscard]] PatternRegion pattern_region(const Corners& corners, const Sample& middle) const {
     if (!stop_.pattern || path_.stop_crossings == 0) return PatternRegion::Uniform;
     if (!all_traced(corners, middle)) return PatternRegion::Varying;
-    std::array<StopCrossings, 4> room;
-    return stop_.region(stop_cell(corners, middle, room), kUniform);
+    std::array<StopCrossings, 4> buffer;
+    return stop_.region(stop_cell(corners, middle, buffer), kUniform);
   }
   [[nodiscard]] bool is_dirty(const Corners& corners, const Sample& middle) const {
     if (!stop_.dirt) return false;
     if (!all_traced(corners, middle)) return true;
-    std::array<StopCrossings, 4> room;
-    return !stop_.is_clean(stop_cell(corners, middle, room));
+    std::array<StopCrossings, 4> buffer;
+    return !stop_.is_clean(stop_cell(corners, middle, buffer));
   }
 
   // The transmittance of the stop pattern for the open part of a triangle: at the middle of that part, averaged over a
@@ -180,7 +180,7 @@ class CellWalker {
     bool some_failed = false;
   };
 
-  void look_past_obscurations(TracedRay ray, Sample& s) const {
+  void trace_past_obscurations(TracedRay ray, Sample& s) const {
     s.obscured = ray.obscured;
     ray.obscured = -1.0;
     s.outside = blocked_by(ray, path_, iris_);
@@ -189,24 +189,24 @@ class CellWalker {
   // Two samples may lie within different obscurations, or at different sides of one, with light between them. This is
   // the less likely the deeper they lie, and does not matter in small cells.
   void allow_for_obscurations(const Corners& corners, const Sample& middle, Blocking& b) const {
-    double least = middle.obscured, most = middle.obscured;
+    double smallest = middle.obscured, largest = middle.obscured;
     Extent e;
     for (const Sample& s : corners) {
       if (!s.traced()) return;
-      least = std::min(least, s.obscured);
-      most = std::max(most, s.obscured);
+      smallest = std::min(smallest, s.obscured);
+      largest = std::max(largest, s.obscured);
       e.add(s.pixel);
     }
-    const bool small = e.size() < kUnseen * limits_.cut_footprint_px;
-    b.dark = b.dark || least > (small ? 0.0 : most - least);
-    b.near_obscuration = most > -kNearObscuration;
+    const bool small = e.size() < kNegligible * limits_.cut_footprint_px;
+    b.dark = b.dark || smallest > (small ? 0.0 : largest - smallest);
+    b.near_obscuration = largest > -kNearObscuration;
   }
 
-  void look_at_picture(const TracedRay& ray, Sample& s) const {
-    s.outside = ray.r_rel - 1.0;
+  void sample_picture(const TracedRay& ray, Sample& s) const {
+    s.outside = ray.relative_height - 1.0;
     for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings); ++c) {
       s.distance[c] = iris_distance(iris_, ray.stop[c]);
-      const Vec2 p = turned(ray.stop[c], -iris_.rotation_rad);
+      const Vec2 p = rotated(ray.stop[c], -iris_.rotation_rad);
       for (const IrisBound& bound : hull_) s.outside = std::max(s.outside, bound.distance(p));
     }
   }
@@ -246,7 +246,7 @@ class CellWalker {
   }
 
   // A lower bound of `blocked` over the cell shows whether it may be open. `blocked` is the largest of several
-  // distances from the axis. If places at the surfaces are linear functions over the cell, these distances are convex
+  // distances from the axis. If points at the surfaces are linear functions over the cell, these distances are convex
   // functions, and so is their maximum f. For any point p and the opposite point q, f(middle) <= (f(p) + f(q)) / 2, and
   // f(q) is at most the highest corner. Hence f(p) >= 2 f(middle) - highest, however small the pupil is and even if all
   // corners are equal. For the nonlinear part a margin is allowed: the range of the samples, times a factor that halves
@@ -254,7 +254,7 @@ class CellWalker {
   // this bound, and distances to the picture's edges within it.
   [[nodiscard]] bool may_be_open(const Blocking& b, const Sample& middle, int depth) const {
     if (b.lowest <= 0.0) return true;
-    if (b.some_failed) return depth < (b.lowest < kFailed ? limits_.look_depth : limits_.blind_depth);
+    if (b.some_failed) return depth < (b.lowest < kFailed ? limits_.search_depth : limits_.blind_depth);
     if (b.dark) return false;
     if (b.lowest_outside <= 0.0) return true;
     return 2.0 * middle.outside - b.highest_outside <= std::ldexp(b.highest_outside - b.lowest_outside, -depth);
@@ -266,7 +266,7 @@ class CellWalker {
     if ((!iris_.field && !path_.obscured) || b.some_failed || b.lowest <= 0.0 || b.lowest_outside > 0.0) return false;
     Extent e;
     for (const Sample& s : corners) e.add(s.pixel);
-    return e.size() < kUnseen * limits_.cut_footprint_px && b.slack < kUnseen * IrisField::kTolerance;
+    return e.size() < kNegligible * limits_.cut_footprint_px && b.slack < kNegligible * IrisField::kTolerance;
   }
 
   // The extent is enlarged by its own size, for light that falls outside the box of the corners.
@@ -296,7 +296,7 @@ class CellWalker {
     }
     if (blocking.some_failed) {
       if (middle.traced()) e.add(middle.pixel);
-      return depth < limits_.look_depth || e.size() > limits_.cut_footprint_px;
+      return depth < limits_.search_depth || e.size() > limits_.cut_footprint_px;
     }
     if (e.size() > limits_.pattern_footprint_px && pattern_region(corners, middle) == PatternRegion::Varying)
       return true;
@@ -306,8 +306,8 @@ class CellWalker {
     if (e.size() > (is_fine ? limits_.cut_footprint_px : limits_.footprint_px)) return true;
     // However small its image is, a cell that is cut by an edge must contain a nearly straight piece of it.
     const double bow = std::abs(middle.blocked - mean_blocked);
-    if (is_cut && bow > limits_.edge_bend * (blocking.highest - blocking.lowest)) return true;
-    return length(middle.pixel - mean) > limits_.bend_px;
+    if (is_cut && bow > limits_.edge_sag * (blocking.highest - blocking.lowest)) return true;
+    return length(middle.pixel - mean) > limits_.sag_px;
   }
 
   void cut(const Corners& c, const Sample& middle, int depth) {
@@ -371,8 +371,8 @@ CellLimits CellLimits::for_density(double density) {
   limits.pattern_footprint_px /= density;
   limits.dirt_footprint_px /= density;
   limits.cut_footprint_px /= density;
-  limits.bend_px /= density;
-  limits.edge_bend /= density;
+  limits.sag_px /= density;
+  limits.edge_sag /= density;
   return limits;
 }
 

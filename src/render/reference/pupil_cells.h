@@ -20,11 +20,11 @@ struct CellLimits {
   double pattern_footprint_px = 1.0;  // the longest side where a stop pattern is neither dark nor uniform
   double dirt_footprint_px = 0.35;   // the longest side where dirt lies: light is spread evenly over each triangle
   double cut_footprint_px = 1.0;   // the longest side where a rim or the iris's edge cuts the cell
-  double bend_px = 0.1;            // distance of the middle's image from the mean of the corners'
-  double edge_bend = 0.005;        // bow of an edge within the cell that it cuts, over the cell's size
-  int look_depth = 3;              // depth to which dark cells with a failed ray are searched
+  double sag_px = 0.1;            // distance of the middle's image from the mean of the corners'
+  double edge_sag = 0.005;        // bow of an edge within the cell that it cuts, over the cell's size
+  int search_depth = 3;              // depth to which dark cells with a failed ray are searched
   int blind_depth = 1;             // depth to which cells with failed rays only are searched
-  int deepest = 12;                // subdivisions of a root cell
+  int max_depth = 12;                // subdivisions of a root cell
 
   // Density 2 halves every length.
   [[nodiscard]] static CellLimits for_density(double density);

@@ -14,7 +14,7 @@ namespace {
 // One ghost of one light at one wavelength.
 struct Item {
   Ghost ghost;
-  const GhostLook* look;
+  const AppliedAdjustment* adjustment;
   const PlannedLight* light;
   const PlannedPass* pass;
 };
@@ -23,7 +23,7 @@ std::vector<Item> items_of(const FramePlan& plan) {
   std::vector<Item> items;
   for_each_pair(plan, [&](std::size_t g, std::size_t k) {
     const PlannedLight& light = plan.lights[k];
-    for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.looks[g], &light, &pass});
+    for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.adjustments[g], &light, &pass});
   });
   return items;
 }
@@ -44,7 +44,7 @@ RenderedItem render_item(const Item& item, const PlannedFrame& planned, double d
   const OpticalPath path = stop.widened(ghost_path(lens, item.ghost, item.pass->lambda_nm));
   out.surfaces = path.steps.size();
   out.counts = reference::for_each_lit_polygon(
-      path, stop.traced_iris(lens.iris), light, entrance_window(lens, light), item.look->placed(frame),
+      path, stop.traced_iris(lens.iris), light, entrance_window(lens, light), item.adjustment->placed(frame),
       reference::CellLimits::for_density(density), [&] { return context.cancelled(); },
       [&](std::span<const Vec2> pixels, double flux) { out.flux.add_polygon(pixels, stop.level() * flux); }, stop);
   return out;
@@ -71,7 +71,7 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
       items.size(), context,
       [&](std::size_t k) { return render_item(items[k], planned, options.density, stops, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
-        rendered.flux.add_to(sum, items[k].look->tinted(items[k].pass->gain));
+        rendered.flux.add_to(sum, items[k].adjustment->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;
         stats.surface_hits += rendered.counts.rays * rendered.surfaces;
         stats.primitives += rendered.counts.polygons;

@@ -13,7 +13,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kGhostsShare = 0.9;  // of the progress; the rest is for the lights' own images
+constexpr double kGhostsFraction = 0.9;  // of the progress; the rest is for the lights' own images
 
 // A context that maps its progress to the part of the whole from one fraction to another.
 Context part_of(const Context& whole, double from, double to) {
@@ -30,10 +30,10 @@ Result<Flare> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, con
 Result<Flare> render_with_lights(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const auto& [lens, lights, settings, cache] = frame;
   if (const auto good = check_light_images(lights, settings); !good) return tl::unexpected(good.error());
-  auto flare = render_ghosts(draw, frame, part_of(context, 0.0, kGhostsShare));
+  auto flare = render_ghosts(draw, frame, part_of(context, 0.0, kGhostsFraction));
   if (!flare) return flare;
   const auto added = add_light_images(*flare, lens, settings.starburst.lights ? *settings.starburst.lights : lights,
-                                      settings, part_of(context, kGhostsShare, 1.0));
+                                      settings, part_of(context, kGhostsFraction, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
 }
@@ -47,7 +47,7 @@ Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& fram
   const DrawPlan draw = [&](const PlannedFrame& planned, const Context& drawing) {
     return (*known)->draw(planned, method, drawing);
   };
-  const bool adds_lights = frame.settings.starburst.on || frame.settings.glare.share != 0.0;
+  const bool adds_lights = frame.settings.starburst.on || frame.settings.glare.fraction != 0.0;
   auto flare = (adds_lights ? render_with_lights : render_ghosts)(draw, frame, context);
   if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
   if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();

@@ -7,8 +7,8 @@
 
 #include "base/tasks.h"
 #include "render/area_lights/image_motion.h"
+#include "render/area_lights/image_pyramid.h"
 #include "render/area_lights/kernel.h"
-#include "render/area_lights/layers.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kOutlinePixels = 32.0;  // pixels of the shape's shorter radius
 constexpr double kFadeFrom = 4.0, kFadeTo = 10.0;
 // The largest numbers of products of kernel and picture: of all lights together, and the least that each light is
 // granted. Where there would be more, pixels are made larger.
-constexpr double kMostProducts = 6e8, kLeastProducts = 3e7;
+constexpr double kMaxProducts = 6e8, kMinProducts = 3e7;
 
 // A light, its shape, and how the shape lies on the frame.
 struct Area {
@@ -35,13 +35,13 @@ struct Area {
 };
 
 // A level's weight as a function of the distance from a point's image; the weights of all levels sum to 1.
-struct Share {
+struct LevelRange {
   int level = 0, finest = 0, coarsest = 0;
 
   [[nodiscard]] double at(double r_px) const {
     return (level == coarsest ? 1.0 : within(level, r_px)) - (level == finest ? 0.0 : within(level - 1, r_px));
   }
-  [[nodiscard]] double reach_px() const {
+  [[nodiscard]] double radius_px() const {
     return level == coarsest ? std::numeric_limits<double>::infinity() : kFadeTo * std::exp2(level);
   }
 
@@ -87,7 +87,7 @@ double feature_radius(const Kernel& kernel) {
 
 // The levels at which a light is drawn: as coarse as its features allow, and coarser if there would be too many
 // products.
-Share levels_of(const Area& area, const Frame& frame, double most_products) {
+LevelRange levels_of(const Area& area, const Frame& frame, double max_products) {
   const Vec2 e = eigenvalues(mapped_covariance(area.px_from_tangents, area.piece.covariance));
   const int level = level_of_width(2.0 * std::sqrt(std::max(e.x, 0.0)) / kOutlinePixels);
   const Kernel kernel = make_kernel(area.piece, area.px_from_tangents * std::exp2(-level), {});
@@ -98,16 +98,17 @@ Share levels_of(const Area& area, const Frame& frame, double most_products) {
     const double of_picture = std::min(across_px * across_px, pixels * std::exp2(-2 * at));
     return std::max(1.0, lit * std::exp2(2 * (level - at))) * of_picture;
   };
-  Share share{0, 0, level_of_width(feature_radius(kernel) * std::exp2(level) / kFeaturePixels)};
-  while (share.coarsest + 1 < kLevels && products(share.coarsest, std::sqrt(pixels)) > most_products) ++share.coarsest;
-  while (share.finest < share.coarsest && products(share.finest, 2.0 * kFadeTo) > most_products) ++share.finest;
-  return share;
+  LevelRange levels{0, 0, level_of_width(feature_radius(kernel) * std::exp2(level) / kFeaturePixels)};
+  while (levels.coarsest + 1 < kLevels && products(levels.coarsest, std::sqrt(pixels)) > max_products)
+    ++levels.coarsest;
+  while (levels.finest < levels.coarsest && products(levels.finest, 2.0 * kFadeTo) > max_products) ++levels.finest;
+  return levels;
 }
 
 // The pixels of the frame within a radius plus the kernel's reach on each side.
-Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame& frame) {
-  const auto within = [](double v, int most) {
-    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(most)));
+Window window_about(Vec2 centre, double radius, KernelExtent margin, const Frame& frame) {
+  const auto within = [](double v, int largest) {
+    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(largest)));
   };
   const int across = margin.left + margin.right, down = margin.up + margin.down;
   return {within(std::floor(centre.x - radius) - across, frame.width),
@@ -117,36 +118,36 @@ Window window_about(Vec2 centre, double radius, KernelReach margin, const Frame&
 }
 
 // A point's spread at one level, times the level's weight, blurred by the light's shape.
-Result<void> add_level(Layers& layers, const Area& area, const Share& share, double pitch_mm,
+Result<void> add_level(ImagePyramid& pyramid, const Area& area, const LevelRange& levels, double pitch_mm,
                        const AddPointSpread& add_point, const Context& context) {
-  const double scale = std::exp2(share.level);
+  const double scale = std::exp2(levels.level);
   const LinearMap map = area.px_from_tangents * (1.0 / scale);
-  const KernelReach reach = reach_of(area.piece, map);
-  const LayerFrame at = layers.frame_for(share.level, reach);
+  const KernelExtent extent = extent_of(area.piece, map);
+  const PyramidFrame at = pyramid.frame_for(levels.level, extent);
   const Vec2 centre =
       area.centre_px * (1.0 / scale) - Vec2{static_cast<double>(at.left), static_cast<double>(at.top)} + at.moved;
-  const Window window = window_about(centre, share.reach_px() / scale, reach, at.frame);
+  const Window window = window_about(centre, levels.radius_px() / scale, extent, at.frame);
   if (window.x0 >= window.x1 || window.y0 >= window.y1) return {};
   Image part(window.x1 - window.x0, window.y1 - window.y0);
   const Vec2 in_part = centre - Vec2{static_cast<double>(window.x0), static_cast<double>(window.y0)};
-  const double farthest_px = std::min(farthest_corner(in_part, part.width, part.height), share.reach_px() / scale);
+  const double farthest_px = std::min(farthest_corner(in_part, part.width, part.height), levels.radius_px() / scale);
   if (auto ok = add_point(part, area.light, {pitch_mm * scale, 2.0 + farthest_px}, in_part, area.flux); !ok) return ok;
   parallel_for(static_cast<std::size_t>(part.height), context, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < part.width; ++x)
       for (int c = 0; c < 3; ++c)
-        part.at(x, y, c) *= static_cast<float>(share.at(scale * length(Vec2{x + 0.5, y + 0.5} - in_part)));
+        part.at(x, y, c) *= static_cast<float>(levels.at(scale * length(Vec2{x + 0.5, y + 0.5} - in_part)));
   });
-  layers.add({part, window.x0, window.y0}, at, make_kernel(area.piece, map, at.moved, smooth_variance(share.level)),
-             0.0, context);
+  pyramid.add({part, window.x0, window.y0}, at, make_kernel(area.piece, map, at.moved, smooth_variance(levels.level)),
+              0.0, context);
   return {};
 }
 
-Result<void> add_area(Layers& layers, const Area& area, const Frame& frame, double most_products,
+Result<void> add_area(ImagePyramid& pyramid, const Area& area, const Frame& frame, double max_products,
                       const AddPointSpread& add_point, const Context& context) {
-  Share share = levels_of(area, frame, most_products);
-  for (share.level = share.finest; share.level <= share.coarsest; ++share.level)
-    if (auto ok = add_level(layers, area, share, frame.pixel_pitch_mm, add_point, context); !ok) return ok;
+  LevelRange levels = levels_of(area, frame, max_products);
+  for (levels.level = levels.finest; levels.level <= levels.coarsest; ++levels.level)
+    if (auto ok = add_level(pyramid, area, levels, frame.pixel_pitch_mm, add_point, context); !ok) return ok;
   return {};
 }
 
@@ -156,8 +157,8 @@ Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, c
                              std::span<const Light> lights, const Frame& frame, const AddPointSpread& add_point,
                              const Context& context) {
   if (areas.empty()) return {};
-  Layers layers(frame, Halving::Smooth);
-  const double most_products = std::max(kMostProducts / static_cast<double>(areas.size()), kLeastProducts);
+  ImagePyramid pyramid(frame, Upsampling::Smooth);
+  const double max_products = std::max(kMaxProducts / static_cast<double>(areas.size()), kMinProducts);
   for (const ImagedLight& imaged : areas) {
     const Light& light = lights[imaged.light];
     Area area;
@@ -166,10 +167,10 @@ Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, c
     area.px_from_tangents = image_motion_px(lens, frame, light.source());
     area.centre_px = imaged.centre_px + area.px_from_tangents(area.piece.middle);
     area.flux = imaged.flux;
-    if (auto ok = add_area(layers, area, frame, most_products, add_point, context); !ok) return ok;
+    if (auto ok = add_area(pyramid, area, frame, max_products, add_point, context); !ok) return ok;
     if (context.cancelled()) return interrupted();
   }
-  const Image sum = std::move(layers).flattened(context);
+  const Image sum = std::move(pyramid).flattened(context);
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     const auto to = image.row(static_cast<int>(row));
     const auto from = sum.row(static_cast<int>(row));

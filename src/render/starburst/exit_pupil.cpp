@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exit pupil in direction cosines. Only a few rays are traced. Whether a place is open depends on the places where
+// The exit pupil in direction cosines. Only a few rays are traced. Whether a point is open depends on the points where
 // its ray meets the stop and the rims that vignette; these are smooth functions of the cosines, so polynomials through
 // them give borders as sharp as the mask.
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "contrejour/expert/check_lens.h"
 #include "contrejour/expert/iris_field.h"
 #include "contrejour/expert/lens_starburst.h"
-#include "render/starburst/mask_places.h"
+#include "render/starburst/mask_points.h"
 #include "render/starburst/pupil_dirt.h"
 #include "render/starburst/pupil_outline.h"
 #include "render/starburst/pupil_rays.h"
@@ -23,17 +23,17 @@
 namespace contrejour {
 namespace {
 
-constexpr int kDegree = 8;            // of the places at the stop and the rims
+constexpr int kDegree = 8;            // of the points at the stop and the rims
 constexpr int kAmplitudeDegree = 4;
 constexpr double kFitBeyond = 0.06;   // relative radii: rays up to this far outside are used in the fit
 constexpr double kNearRim = 0.05;     // a rim this close to the outermost rays may cut the pupil between them
 constexpr double kObscures = 3.0;  // radii of an obscuration, plus one: a small one may lie between the rays
 constexpr double kUncertain = 0.02;   // relative radii, added to twice the linear model's own error
-constexpr int kFewestSamples = 16, kMostSamples = 4096;
+constexpr int kMinSamples = 16, kMaxSamples = 4096;
 constexpr std::size_t kKeptRays = 5;
 constexpr int kShadeStep = 8;  // samples
 
-// The places at the stop, then at each rim that vignettes, as functions of the cosines: x and y of each.
+// The points at the stop, then at each rim that vignettes, as functions of the cosines: x and y of each.
 class Borders {
  public:
   Borders(const PupilRays& pupil, const std::vector<std::size_t>& used, std::vector<std::size_t> rims, const Iris& iris,
@@ -54,7 +54,7 @@ class Borders {
         worst = std::max(worst, std::abs(smooth[f] - straight_[f].at(pupil.rays[k].cosines)));
     }
     uncertain_ = 2.0 * worst + kUncertain;
-    values_per_place_ = exact_.functions();
+    values_per_point_ = exact_.functions();
   }
 
   // The signed distance from the border, in cosines; far from the border only its sign is right.
@@ -69,7 +69,7 @@ class Borders {
     exact_.evaluate(cosines + Vec2{kStep, 0.0}, right.data());
     exact_.evaluate(cosines + Vec2{0.0, kStep}, up.data());
     double worst = -kFar;
-    for (std::size_t c = 0; c < values_per_place_ / 2; ++c) {
+    for (std::size_t c = 0; c < values_per_point_ / 2; ++c) {
       const double g = level(here, c);
       const Vec2 gradient = Vec2{level(right, c) - g, level(up, c) - g} * (1.0 / kStep);
       worst = std::max(worst, g / std::max(length(gradient), 1e-12));
@@ -77,7 +77,7 @@ class Borders {
     return worst;
   }
 
-  // The largest distance between fitted and traced places for a ray, over the stop and the rims.
+  // The largest distance between fitted and traced points for a ray, over the stop and the rims.
   [[nodiscard]] double error_at(const PupilRays& pupil, std::size_t ray) const {
     Values values{};
     exact_.evaluate(pupil.rays[ray].cosines, values.data());
@@ -87,7 +87,7 @@ class Borders {
     return worst;
   }
 
-  static constexpr std::size_t kMostRims = 15;
+  static constexpr std::size_t kMaxRims = 15;
 
  private:
   static constexpr double kFar = 1e3;
@@ -98,22 +98,22 @@ class Borders {
     Vec2 slope;
     [[nodiscard]] double at(Vec2 cosines) const { return at_zero + dot(slope, cosines); }
   };
-  using Values = std::array<double, 2 * (kMostRims + 1)>;
+  using Values = std::array<double, 2 * (kMaxRims + 1)>;
 
   SmoothFit fit(const PupilRays& pupil, const std::vector<std::size_t>& used, int degree) const {
-    std::vector<Vec2> places;
+    std::vector<Vec2> points;
     std::vector<double> values;
-    const auto add = [&](auto place_of) {
-      for (const std::size_t k : used) values.push_back(place_of(k).x);
-      for (const std::size_t k : used) values.push_back(place_of(k).y);
+    const auto add = [&](auto position_of) {
+      for (const std::size_t k : used) values.push_back(position_of(k).x);
+      for (const std::size_t k : used) values.push_back(position_of(k).y);
     };
-    for (const std::size_t k : used) places.push_back(pupil.rays[k].cosines);
+    for (const std::size_t k : used) points.push_back(pupil.rays[k].cosines);
     add([&](std::size_t k) { return pupil.rays[k].stop; });
     for (const std::size_t rim : rims_) add([&](std::size_t k) { return pupil.at_rim(rim, k); });
-    return {places, values, degree};
+    return {points, values, degree};
   }
 
-  // How far a place lies outside the iris (0) or a rim (1 and more), or within an obscuration, in relative radii.
+  // How far a point lies outside the iris (0) or a rim (1 and more), or within an obscuration, in relative radii.
   [[nodiscard]] double level(const Values& values, std::size_t constraint) const {
     const Vec2 at{values[2 * constraint], values[2 * constraint + 1]};
     if (constraint > 0) return blocks_within_[constraint - 1] ? 1.0 - length(at) : length(at) - 1.0;
@@ -121,7 +121,7 @@ class Borders {
   }
   [[nodiscard]] double largest(const Values& values) const {
     double worst = level(values, 0);
-    for (std::size_t c = 1; c < values_per_place_ / 2; ++c) worst = std::max(worst, level(values, c));
+    for (std::size_t c = 1; c < values_per_point_ / 2; ++c) worst = std::max(worst, level(values, c));
     return worst;
   }
 
@@ -132,11 +132,11 @@ class Borders {
   SmoothFit exact_;
   std::vector<Straight> straight_;
   double uncertain_ = 0;
-  std::size_t values_per_place_ = 0;
+  std::size_t values_per_point_ = 0;
 };
 
 // The rims that cut the pupil, or nearly do: the outermost rays that the iris lets pass decide, or the rays closest to
-// an obscuration's middle. Returns at most Borders::kMostRims, the closest first.
+// an obscuration's middle. Returns at most Borders::kMaxRims, the closest first.
 std::vector<std::size_t> vignetting_rims(const PupilRays& pupil) {
   std::vector<std::pair<double, std::size_t>> found;
   for (std::size_t rim = 0; rim < pupil.rims; ++rim) {
@@ -148,7 +148,7 @@ std::vector<std::size_t> vignetting_rims(const PupilRays& pupil) {
     if (farthest > 1.0 - kNearRim) found.emplace_back(-farthest, rim);
   }
   std::sort(found.begin(), found.end());
-  found.resize(std::min(found.size(), Borders::kMostRims));
+  found.resize(std::min(found.size(), Borders::kMaxRims));
   std::vector<std::size_t> rims;
   for (const auto& [farthest, rim] : found) rims.push_back(rim);
   return rims;
@@ -162,7 +162,7 @@ std::vector<std::size_t> rays_within(const PupilRays& pupil, double beyond) {
 }
 
 int degree_for(std::size_t rays, int wanted) {
-  while (wanted > 0 && SmoothFit::terms(wanted) * SmoothFit::kPlacesPerTerm > rays) --wanted;
+  while (wanted > 0 && SmoothFit::terms(wanted) * SmoothFit::kPointsPerTerm > rays) --wanted;
   return wanted;
 }
 
@@ -181,11 +181,11 @@ void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
   };
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      bool beside = false;
+      bool next_to_open = false;
       for (int j = std::max(0, y - 1); j <= std::min(side - 1, y + 1); ++j)
-        for (int i = std::max(0, x - 1); i <= std::min(side - 1, x + 1); ++i) beside = beside || open(i, j);
+        for (int i = std::max(0, x - 1); i <= std::min(side - 1, x + 1); ++i) next_to_open = next_to_open || open(i, j);
       const PupilRay& ray = pupil.rays[static_cast<std::size_t>(y * side + x)];
-      if (!beside || !ray.arrived) continue;
+      if (!next_to_open || !ray.arrived) continue;
       low = {std::min(low.x, ray.cosines.x), std::min(low.y, ray.cosines.y)};
       high = {std::max(high.x, ray.cosines.x), std::max(high.y, ray.cosines.y)};
     }
@@ -195,12 +195,12 @@ void grow_over_neighbours(const PupilRays& pupil, Vec2& low, Vec2& high) {
 // The square root of the flux per unit area of direction cosines: transmittance times |d entrance / d cosines|
 // (radiometry.md).
 SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& used, double shared_flux) {
-  std::vector<Vec2> places;
+  std::vector<Vec2> points;
   std::vector<double> entrance, amplitude;
-  for (const std::size_t k : used) places.push_back(pupil.rays[k].cosines);
+  for (const std::size_t k : used) points.push_back(pupil.rays[k].cosines);
   for (const std::size_t k : used) entrance.push_back(pupil.rays[k].entrance_mm.x);
   for (const std::size_t k : used) entrance.push_back(pupil.rays[k].entrance_mm.y);
-  const SmoothFit from(places, entrance, degree_for(used.size(), kDegree));
+  const SmoothFit from(points, entrance, degree_for(used.size(), kDegree));
   constexpr double h = 1e-6;
   for (const std::size_t k : used) {
     const Vec2 at = pupil.rays[k].cosines;
@@ -210,7 +210,7 @@ SmoothFit amplitude_of(const PupilRays& pupil, const std::vector<std::size_t>& u
     const double density = std::abs(cross(along({h, 0.0}), along({0.0, h})));
     amplitude.push_back(std::sqrt(pupil.rays[k].transmission * shared_flux * density));
   }
-  return {places, amplitude, degree_for(used.size(), kAmplitudeDegree)};
+  return {points, amplitude, degree_for(used.size(), kAmplitudeDegree)};
 }
 
 void keep_rays(const PupilRays& pupil, const std::vector<std::size_t>& open, ExitPupil& out) {
@@ -229,7 +229,7 @@ double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
   std::vector<double> at_knot;
   for (int row = 0; row < knots; ++row)
     for (int column = 0; column < knots; ++column)
-      at_knot.push_back(std::max(0.0, amplitude(out.middle + grid.place_mm(column * kShadeStep, row * kShadeStep))));
+      at_knot.push_back(std::max(0.0, amplitude(out.middle + grid.position_mm(column * kShadeStep, row * kShadeStep))));
   double sum = 0.0, squares = 0.0;
   std::size_t k = 0;
   for (int row = 0; row < grid.side; ++row) {
@@ -256,24 +256,24 @@ double shade(const SmoothFit& amplitude, double area, ExitPupil& out) {
 
 // Half-tones of a picture, after hullin2011 3.2: multiplies the amplitude of each sample by the square root of its
 // transmittance. Returns the remaining fraction of the mask's power.
-double shade_by_tones(const Iris& iris, const PupilRays& pupil, const std::vector<std::size_t>& used, int degree,
-                      ExitPupil& out) {
-  if (!iris.field || !iris.field->has_tones()) return 1.0;
+double dim_by_half_tones(const Iris& iris, const PupilRays& pupil, const std::vector<std::size_t>& used, int degree,
+                         ExitPupil& out) {
+  if (!iris.field || !iris.field->has_half_tones()) return 1.0;
   std::vector<Vec2> cosines, stops;
   for (const std::size_t k : used) cosines.push_back(pupil.rays[k].cosines);
   for (const std::size_t k : used) stops.push_back(pupil.rays[k].stop);
   const MaskGrid& grid = out.mask.grid;
-  const MaskPlaces places(cosines, stops, degree, out.middle, grid);
+  const MaskPoints points(cosines, stops, degree, out.middle, grid);
   double all = 0.0, passed = 0.0;
   std::size_t k = 0;
   for (int row = 0; row < grid.side; ++row) {
     for (int column = 0; column < grid.side; ++column, ++k) {
       float& value = out.mask.amplitude[k];
       if (!(value > 0.0F)) continue;
-      const double share = iris_transmittance(iris, places.at(column, row), places.sample());
+      const double transmittance = iris_transmittance(iris, points.at(column, row), points.sample());
       all += static_cast<double>(value) * value;
-      passed += share * value * value;
-      value *= static_cast<float>(std::sqrt(share));
+      passed += transmittance * value * value;
+      value *= static_cast<float>(std::sqrt(transmittance));
     }
   }
   out.flux_mm2 *= passed / all;
@@ -283,10 +283,10 @@ double shade_by_tones(const Iris& iris, const PupilRays& pupil, const std::vecto
 Result<void> check(const LensState& lens, const LightSource& light, double lambda_nm, int samples_across) {
   if (!is_wavelength(lambda_nm))
     return failure(ErrorCode::InvalidArgument, fmt::format("no light has a wavelength of {} nm", lambda_nm));
-  if (samples_across < kFewestSamples || samples_across > kMostSamples)
+  if (samples_across < kMinSamples || samples_across > kMaxSamples)
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("{} samples across the pupil are out of range; choose {} to {}", samples_across,
-                               kFewestSamples, kMostSamples));
+                               kMinSamples, kMaxSamples));
   if (auto good = check_lens(lens); !good) return good;
   return check_source(lens, light);
 }
@@ -296,7 +296,7 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
   ExitPupil out;
   const std::vector<std::size_t> open = open_rays(pupil), used = rays_within(pupil, kFitBeyond);
   const int degree = degree_for(used.size(), kDegree);
-  if (open.size() < SmoothFit::kPlacesPerTerm * SmoothFit::terms(1) || degree < 1) return out;
+  if (open.size() < SmoothFit::kPointsPerTerm * SmoothFit::terms(1) || degree < 1) return out;
   const std::vector<std::size_t> rims = vignetting_rims(pupil);
 
   std::vector<std::size_t> fitted, held_out;
@@ -314,13 +314,13 @@ ExitPupil pupil_of(const PupilRays& pupil, const LensState& lens, const LightSou
       grid_over(out.radius, samples_across), [&](Vec2 at) { return borders.distance(out.middle + at); }, context);
 
   double open_samples = 0.0;
-  for (const float share : out.mask.amplitude) open_samples += share;
+  for (const float transmittance : out.mask.amplitude) open_samples += transmittance;
   if (!(open_samples > 0.0)) return {};
   const double open_area = open_samples * out.mask.grid.pitch_mm * out.mask.grid.pitch_mm;
   out.outline = outline_of(pupil, {rims, open, used}, lens.iris, open_area);
   double power_mm2 =
       shade(amplitude_of(pupil, used, light.shared_flux()), out.outline ? out.outline->area_mm2() : open_area, out);
-  power_mm2 *= shade_by_tones(lens.iris, pupil, used, degree, out);
+  power_mm2 *= dim_by_half_tones(lens.iris, pupil, used, degree, out);
   add_dirt(lens, light, pupil, used, degree, power_mm2, out);
   keep_rays(pupil, open, out);
   return out;

@@ -21,16 +21,16 @@ std::vector<double> transmissions(const LensState& lens, const LightSource& ligh
   return mean;
 }
 
-// The weights times the transmittances, scaled so that each channel sums to `whole_share`.
+// The weights times the transmittances, scaled so that each channel sums to `whole_fraction`.
 std::vector<SpectralBand> transmitted(std::span<const SpectralBand> bands, const std::vector<double>& transmission,
-                                      double whole_share) {
+                                      double whole_fraction) {
   std::vector<SpectralBand> out(bands.begin(), bands.end());
   Rgb whole{};
   for (std::size_t k = 0; k < out.size(); ++k)
     for (std::size_t c = 0; c < whole.size(); ++c) whole[c] += out[k].weight[c] *= transmission[k];
   for (SpectralBand& band : out)
     for (std::size_t c = 0; c < whole.size(); ++c)
-      band.weight[c] = whole[c] != 0.0 ? whole_share * band.weight[c] / whole[c] : 0.0;
+      band.weight[c] = whole[c] != 0.0 ? whole_fraction * band.weight[c] / whole[c] : 0.0;
   return out;
 }
 

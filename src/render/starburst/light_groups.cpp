@@ -27,14 +27,14 @@ Cell cell_of(const ImagedLight& light, const Frame& frame) {
 
 std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<const ImagedLight> imaged,
                                      const Frame& frame) {
-  const bool share_cells = imaged.size() > kOwnStarbursts;
+  const bool group_by_cells = imaged.size() > kOwnStarbursts;
   std::vector<LightGroup> groups;
   for (const ImagedLight& light : imaged) {
     const auto joins = [&](const LightGroup& group) {
       const ImagedLight& first = group.front();
       if (lights[first.light].spectrum != lights[light.light].spectrum) return false;
-      return share_cells ? cell_of(first, frame) == cell_of(light, frame)
-                         : lights[first.light].source() == lights[light.light].source();
+      return group_by_cells ? cell_of(first, frame) == cell_of(light, frame)
+                            : lights[first.light].source() == lights[light.light].source();
     };
     const auto found = std::find_if(groups.begin(), groups.end(), joins);
     if (found == groups.end())

@@ -25,7 +25,7 @@ struct ImagedLight {
 using LightGroup = std::vector<ImagedLight>;  // brightest first
 
 // Returns groups in the order of their first lights. Lights of different spectra never share a starburst; lights of the
-// same place and spectrum always do.
+// same point and spectrum always do.
 [[nodiscard]] std::vector<LightGroup> group_lights(std::span<const Light> lights, std::span<const ImagedLight> imaged,
                                                    const Frame& frame);
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "render/starburst/mask_places.h"
+#include "render/starburst/mask_points.h"
 #include "render/starburst/smooth_fit.h"
 
 namespace contrejour::inline internal {
@@ -16,20 +16,20 @@ namespace {
 
 constexpr double kBoxMargin = 0.01;   // of the box of the rays: polynomials are not valid far beyond
 constexpr double kLongestEdge = 0.03;  // of the box: longer edges are split, since they bend in the map
-constexpr int kLookAlong = 64;        // steps along a stroke, to find the part of it that is open,
-constexpr int kLookAcross = 5;        // and places on a side of a speck
+constexpr int kSamplesAlong = 64;        // steps along a stroke, to find the part of it that is open,
+constexpr int kSamplesAcross = 5;        // and points on a side of a speck
 constexpr double kOpen = 0.5;         // amplitude
 constexpr int kBisections = 12;
-constexpr int kMostSubsamples = 4;    // on a side of a mask's sample, where a picture is finer
+constexpr int kMaxSubsamples = 4;    // on a side of a mask's sample, where a picture is finer
 
 struct Box {
   Vec2 low, high;
   [[nodiscard]] double size() const { return std::max(high.x - low.x, high.y - low.y); }
 };
 
-Box box_of(const std::vector<Vec2>& places) {
-  Box box{places.front(), places.front()};
-  for (const Vec2 p : places) {
+Box box_of(const std::vector<Vec2>& points) {
+  Box box{points.front(), points.front()};
+  for (const Vec2 p : points) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
   }
@@ -61,8 +61,8 @@ class PupilDirtPainter {
  public:
   PupilDirtPainter(const LensState& lens, const LightSource& light, const PupilRays& pupil,
                    const std::vector<std::size_t>& used, int degree, ExitPupil& out)
-      : dirt_(lens.dirt), out_(out), places_(places_of(lens, light, pupil, used)), box_(box_of(places_)),
-        cosines_(cosines_of(pupil, used)), to_pupil_(fit_places(places_, cosines_, degree)), degree_(degree) {
+      : dirt_(lens.dirt), out_(out), points_(points_of(lens, light, pupil, used)), box_(box_of(points_)),
+        cosines_(cosines_of(pupil, used)), to_pupil_(fit_points(points_, cosines_, degree)), degree_(degree) {
     const std::size_t surface = dirt_.plane == DirtPlane::Front ? 0 : static_cast<std::size_t>(lens.stop_index);
     clear_radius_mm_ = lens.surfaces[surface].semi_diameter_mm;
   }
@@ -72,7 +72,7 @@ class PupilDirtPainter {
     MaskPower power(clean.size(), 1.0F);
     const std::vector<DirtStroke> strokes = dirt_within(dirt_, box_.low, box_.high);
     std::vector<DimPolygon> polygons;
-    for (const DirtStroke& stroke : strokes) polygons.push_back({seen(dirt_outline(stroke)), 1.0 - stroke.opacity});
+    for (const DirtStroke& stroke : strokes) polygons.push_back({in_pupil(dirt_outline(stroke)), 1.0 - stroke.opacity});
     dim(out_.mask, power, polygons);
     if (dirt_.picture) dim_by_picture(power);
 
@@ -87,7 +87,7 @@ class PupilDirtPainter {
     if (!(left > 0.0) || !out_.outline || polygons.empty()) return;
     PupilDirt dirt;
     for (const DirtStroke& stroke : strokes) add_open_part(stroke, clean, dirt.strokes);
-    const SmoothFit straight = fit_places(places_, cosines_, 1);
+    const SmoothFit straight = fit_points(points_, cosines_, 1);
     const auto step = [&](Vec2 to) {
       return Vec2{straight(to, 0) - straight({}, 0), straight(to, 1) - straight({}, 1)};
     };
@@ -98,46 +98,46 @@ class PupilDirtPainter {
   }
 
  private:
-  // The places where rays cross the plane that the dirt lies in.
-  static std::vector<Vec2> places_of(const LensState& lens, const LightSource& light, const PupilRays& pupil,
+  // The points where rays cross the plane that the dirt lies in.
+  static std::vector<Vec2> points_of(const LensState& lens, const LightSource& light, const PupilRays& pupil,
                                      const std::vector<std::size_t>& used) {
     const auto front = [&](const PupilRay& ray) {
       const Vec3 along = light.direction_at({ray.entrance_mm.x, ray.entrance_mm.y, pupil.z_mm});
       const double steps = (lens.surfaces.front().z_mm - pupil.z_mm) / along.z;
       return ray.entrance_mm + Vec2{along.x, along.y} * steps;
     };
-    std::vector<Vec2> places;
+    std::vector<Vec2> points;
     for (const std::size_t k : used)
-      places.push_back(lens.dirt.plane == DirtPlane::Front ? front(pupil.rays[k])
+      points.push_back(lens.dirt.plane == DirtPlane::Front ? front(pupil.rays[k])
                                                            : pupil.rays[k].stop * lens.stop_radius_mm);
-    return places;
+    return points;
   }
   static std::vector<Vec2> cosines_of(const PupilRays& pupil, const std::vector<std::size_t>& used) {
     std::vector<Vec2> cosines;
     for (const std::size_t k : used) cosines.push_back(pupil.rays[k].cosines);
     return cosines;
   }
-  [[nodiscard]] Vec2 seen(Vec2 place) const {
+  [[nodiscard]] Vec2 in_pupil(Vec2 point) const {
     double cosines[2];
-    to_pupil_.evaluate(place, cosines);
+    to_pupil_.evaluate(point, cosines);
     return Vec2{cosines[0], cosines[1]} - out_.middle;
   }
-  [[nodiscard]] std::vector<Vec2> seen(const std::vector<Vec2>& outline) const {
+  [[nodiscard]] std::vector<Vec2> in_pupil(const std::vector<Vec2>& outline) const {
     const std::vector<Vec2> within = part_within(outline, box_);
     std::vector<Vec2> corners;
     for (std::size_t k = 0; k < within.size(); ++k) {
       const Vec2 a = within[k], b = within[(k + 1) % within.size()];
       const int parts = std::max(1, static_cast<int>(std::ceil(length(b - a) / (kLongestEdge * box_.size()))));
-      for (int i = 0; i < parts; ++i) corners.push_back(seen(a + (b - a) * (static_cast<double>(i) / parts)));
+      for (int i = 0; i < parts; ++i) corners.push_back(in_pupil(a + (b - a) * (static_cast<double>(i) / parts)));
     }
     return corners;
   }
 
   // The clean mask's amplitude, linear between samples, so that what is scaled by it changes smoothly.
-  [[nodiscard]] double openness(Vec2 place, const std::vector<float>& clean) const {
-    if (place.x < box_.low.x || place.y < box_.low.y || place.x > box_.high.x || place.y > box_.high.y) return 0.0;
+  [[nodiscard]] double openness(Vec2 point, const std::vector<float>& clean) const {
+    if (point.x < box_.low.x || point.y < box_.low.y || point.x > box_.high.x || point.y > box_.high.y) return 0.0;
     const MaskGrid& grid = out_.mask.grid;
-    const Vec2 at = seen(place);
+    const Vec2 at = in_pupil(point);
     const double x = 0.5 * grid.side + at.x / grid.pitch_mm - 0.5, y = 0.5 * grid.side - at.y / grid.pitch_mm - 0.5;
     if (!(x >= 0.0 && y >= 0.0 && x < grid.side - 1 && y < grid.side - 1)) return 0.0;
     const double s = x - std::floor(x), t = y - std::floor(y);
@@ -146,7 +146,7 @@ class PupilDirtPainter {
     return (1.0 - t) * ((1.0 - s) * p[0] + s * p[1]) + t * ((1.0 - s) * p[side] + s * p[side + 1]);
   }
 
-  // Where the opening ends between two places along a stroke's line; the first is open.
+  // Where the opening ends between two points along a stroke's line; the first is open.
   [[nodiscard]] double end_between(const DirtStroke& stroke, double open, double dark,
                                    const std::vector<float>& clean) const {
     for (int i = 0; i < kBisections; ++i) {
@@ -160,16 +160,16 @@ class PupilDirtPainter {
   // opening.
   void add_open_part(const DirtStroke& stroke, const std::vector<float>& clean, std::vector<DirtStroke>& out) const {
     if (stroke.length_mm <= stroke.width_mm) return add_open_speck(stroke, clean, out);
-    const auto share_at = [](int step) { return static_cast<double>(step) / kLookAlong - 0.5; };
+    const auto fraction_at = [](int step) { return static_cast<double>(step) / kSamplesAlong - 0.5; };
     int best_first = 0, best_count = 0, count = 0;
-    for (int i = 0; i <= kLookAlong; ++i) {
-      count = openness(stroke.at(share_at(i)), clean) > kOpen ? count + 1 : 0;
+    for (int i = 0; i <= kSamplesAlong; ++i) {
+      count = openness(stroke.at(fraction_at(i)), clean) > kOpen ? count + 1 : 0;
       if (count > best_count) best_count = count, best_first = i - count + 1;
     }
     if (best_count == 0) return;
-    double low = share_at(best_first), high = share_at(best_first + best_count - 1);
-    if (low > -0.5) low = end_between(stroke, low, low - 1.0 / kLookAlong, clean);
-    if (high < 0.5) high = end_between(stroke, high, high + 1.0 / kLookAlong, clean);
+    double low = fraction_at(best_first), high = fraction_at(best_first + best_count - 1);
+    if (low > -0.5) low = end_between(stroke, low, low - 1.0 / kSamplesAlong, clean);
+    if (high < 0.5) high = end_between(stroke, high, high + 1.0 / kSamplesAlong, clean);
     DirtStroke part = stroke;
     part.middle_mm = stroke.at(0.5 * (low + high));
     part.angle_rad += 0.5 * (low + high) * stroke.bend_rad;
@@ -180,42 +180,43 @@ class PupilDirtPainter {
   }
   void add_open_speck(const DirtStroke& speck, const std::vector<float>& clean, std::vector<DirtStroke>& out) const {
     double open = 0.0;
-    for (int i = 0; i < kLookAcross * kLookAcross; ++i) {
-      const Vec2 off = Vec2{(i % kLookAcross + 0.5) / kLookAcross - 0.5, (i / kLookAcross + 0.5) / kLookAcross - 0.5};
+    for (int i = 0; i < kSamplesAcross * kSamplesAcross; ++i) {
+      const Vec2 off =
+          Vec2{(i % kSamplesAcross + 0.5) / kSamplesAcross - 0.5, (i / kSamplesAcross + 0.5) / kSamplesAcross - 0.5};
       open += std::min(1.0, openness(speck.middle_mm + off * speck.width_mm, clean));
     }
     if (!(open > 0.0)) return;
     DirtStroke part = speck;
-    part.width_mm *= std::sqrt(open) / kLookAcross;
-    part.length_mm *= std::sqrt(open) / kLookAcross;
+    part.width_mm *= std::sqrt(open) / kSamplesAcross;
+    part.length_mm *= std::sqrt(open) / kSamplesAcross;
     out.push_back(part);
   }
 
   void dim_by_picture(MaskPower& power) {
     const MaskGrid& grid = out_.mask.grid;
-    const MaskPlaces places(cosines_, places_, degree_, out_.middle, grid);
+    const MaskPoints points(cosines_, points_, degree_, out_.middle, grid);
     const double per_clear_radius = 1.0 / clear_radius_mm_;
-    const double finer = places.sample() * per_clear_radius / dirt_.picture->pixel();
-    const int sub = std::clamp(static_cast<int>(std::ceil(finer)), 1, kMostSubsamples);
+    const double finer = points.sample() * per_clear_radius / dirt_.picture->pixel();
+    const int sub = std::clamp(static_cast<int>(std::ceil(finer)), 1, kMaxSubsamples);
     std::size_t k = 0;
     for (int row = 0; row < grid.side; ++row) {
       for (int column = 0; column < grid.side; ++column, ++k) {
         if (!(out_.mask.amplitude[k] > 0.0F)) continue;
         double sum = 0.0;
         for (int i = 0; i < sub * sub; ++i) {
-          const Vec2 at = places.at(column + (i % sub + 0.5) / sub - 0.5, row + (i / sub + 0.5) / sub - 0.5);
+          const Vec2 at = points.at(column + (i % sub + 0.5) / sub - 0.5, row + (i / sub + 0.5) / sub - 0.5);
           sum += dirt_.picture->transmission(at * per_clear_radius);
         }
-        const double share = sum / (sub * sub);
-        out_.mask.amplitude[k] *= static_cast<float>(std::sqrt(share));
-        power[k] *= static_cast<float>(share);
+        const double transmittance = sum / (sub * sub);
+        out_.mask.amplitude[k] *= static_cast<float>(std::sqrt(transmittance));
+        power[k] *= static_cast<float>(transmittance);
       }
     }
   }
 
   const Dirt& dirt_;
   ExitPupil& out_;
-  std::vector<Vec2> places_;  // in mm of the dirt's plane
+  std::vector<Vec2> points_;  // in mm of the dirt's plane
   Box box_;
   std::vector<Vec2> cosines_;
   SmoothFit to_pupil_;

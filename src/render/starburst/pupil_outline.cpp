@@ -11,33 +11,33 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kRimShare = 0.1;     // about a rim, in which rays are used to find its circle in the stop
+constexpr double kRimMargin = 0.1;     // about a rim, in which rays are used to find its circle in the stop
 constexpr double kOutlineAgrees = 0.15;  // of the area
 
-// The images in cosines of a plane's unit vectors, from the places at which these rays cross the plane.
+// The images in cosines of a plane's unit vectors, from the points at which these rays cross the plane.
 std::array<Vec2, 2> axes_in_cosines(const PupilRays& pupil, const std::vector<std::size_t>& rays,
-                                    const std::vector<Vec2>& places) {
+                                    const std::vector<Vec2>& points) {
   std::vector<double> values;
   for (const std::size_t k : rays) values.push_back(pupil.rays[k].cosines.x);
   for (const std::size_t k : rays) values.push_back(pupil.rays[k].cosines.y);
-  const SmoothFit fit(places, values, 1);
+  const SmoothFit fit(points, values, 1);
   const auto step = [&](Vec2 to) { return Vec2{fit(to, 0) - fit({}, 0), fit(to, 1) - fit({}, 1)}; };
   return {step({1.0, 0.0}), step({0.0, 1.0})};
 }
 
 // A rim as it is projected onto the stop: rays near the rim are moved onto it along the gradient of their distance, and
-// a circle is fitted to these places (Kasa 1976: linear in centre and radius squared).
-std::optional<IrisBound> rim_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
+// a circle is fitted to these points (Kasa 1976: linear in centre and radius squared).
+std::optional<IrisBound> rim_as_seen_from_stop(const PupilRays& pupil, std::size_t rim) {
   std::vector<Vec2> stops;
   std::vector<double> outside;
   for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
     const PupilRay& ray = pupil.rays[k];
     const double beyond = length(pupil.at_rim(rim, k)) - 1.0;
-    if (!ray.arrived || ray.blocked > kRimShare || std::abs(beyond) > kRimShare) continue;
+    if (!ray.arrived || ray.blocked > kRimMargin || std::abs(beyond) > kRimMargin) continue;
     stops.push_back(ray.stop);
     outside.push_back(beyond);
   }
-  if (stops.size() < SmoothFit::kPlacesPerTerm * SmoothFit::terms(2)) return std::nullopt;
+  if (stops.size() < SmoothFit::kPointsPerTerm * SmoothFit::terms(2)) return std::nullopt;
   const SmoothFit level(stops, outside, 2);
   std::vector<double> minus_squares;
   constexpr double h = 1e-5;
@@ -65,9 +65,9 @@ std::vector<double> obscured_areas(const PupilRays& pupil, const std::vector<std
   std::vector<std::size_t> before;
   for (const std::size_t rim : rims) {
     if (!pupil.blocks_within[rim]) continue;
-    std::vector<Vec2> places;
-    for (const std::size_t k : used) places.push_back(pupil.at_rim(rim, k));
-    const auto axes = axes_in_cosines(pupil, used, places);
+    std::vector<Vec2> points;
+    for (const std::size_t k : used) points.push_back(pupil.at_rim(rim, k));
+    const auto axes = axes_in_cosines(pupil, used, points);
     const auto is_within = [&](std::size_t of, std::size_t ray) { return length(pupil.at_rim(of, ray)) < 1.0; };
     int within = 0, dark = 0;
     for (std::size_t k = 0; k < pupil.rays.size(); ++k) {
@@ -91,7 +91,7 @@ std::optional<PupilOutline> outline_of(const PupilRays& pupil, const OutlineRays
   std::vector<IrisBound> cuts;
   for (const std::size_t rim : of.rims) {
     if (pupil.blocks_within[rim]) continue;
-    if (const auto cut = rim_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
+    if (const auto cut = rim_as_seen_from_stop(pupil, rim)) cuts.push_back(*cut);
   }
   std::vector<Vec2> stops;
   for (const std::size_t k : of.open) stops.push_back(pupil.rays[k].stop);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/tasks.h"
-#include "optics/trace/beside_axis.h"
+#include "optics/trace/height_vector.h"
 #include "render/pupils/pupil_search.h"
 
 namespace contrejour::inline internal {
@@ -26,8 +26,8 @@ std::optional<Rectangle> find_region(LensState lens, const LightSource& light, d
   return Rectangle{found.box().low - beyond, found.box().high + beyond};
 }
 
-// Traces one ray, and writes its places at the rims: rim_places[rim * stride].
-PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& from, Vec2* rim_places,
+// Traces one ray, and writes its points at the rims: rim_points[rim * stride].
+PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& from, Vec2* rim_points,
                    std::size_t stride) {
   PupilRay ray;
   ray.entrance_mm = {from.origin_mm.x, from.origin_mm.y};
@@ -38,13 +38,13 @@ PupilRay trace_one(const OpticalPath& path, const IrisOpening& iris, const Ray& 
   ray.stop = record.ray.stop[0];
   ray.transmission = record.ray.transmission;
   ray.iris = iris.bound_distance(ray.stop);
-  ray.blocked = std::max(ray.iris, record.ray.r_rel - 1.0);
+  ray.blocked = std::max(ray.iris, record.ray.relative_height - 1.0);
   ray.obscured = record.ray.obscured;
   std::size_t rim = 0;
   for (std::size_t k = 0; k < path.steps.size(); ++k) {
     if (path.steps[k].event == PathEvent::Stop) continue;
-    const Vec2 at = beside_axis(path.steps[k], record.steps[k].position_mm);
-    rim_places[rim++ * stride] = path.steps[k].rim_place(at);
+    const Vec2 at = height_vector(path.steps[k], record.steps[k].position_mm);
+    rim_points[rim++ * stride] = path.steps[k].rim_point(at);
   }
   return ray;
 }
@@ -63,7 +63,7 @@ std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& i
   for (const PathStep& step : path.steps)
     if (step.event != PathEvent::Stop) pupil.blocks_within.push_back(step.blocks_within);
   pupil.rays.resize(static_cast<std::size_t>(kSide) * kSide);
-  pupil.rim_places.resize(pupil.rims * pupil.rays.size());
+  pupil.rim_points.resize(pupil.rims * pupil.rays.size());
   const Vec2 step = (box->high - box->low) * (1.0 / (kSide - 1));
   const bool done = parallel_for(static_cast<std::size_t>(kSide), context, [&](std::size_t row) {
     for (std::size_t column = 0; column < static_cast<std::size_t>(kSide); ++column) {
@@ -71,7 +71,7 @@ std::optional<PupilRays> trace_pupil(const LensState& lens, const IrisOpening& i
       const Vec2 at = box->low + Vec2{static_cast<double>(column) * step.x, static_cast<double>(row) * step.y};
       const Vec3 from{at.x, at.y, pupil.z_mm};
       pupil.rays[k] =
-          trace_one(path, iris, {from, light.direction_at(from)}, pupil.rim_places.data() + k, pupil.rays.size());
+          trace_one(path, iris, {from, light.direction_at(from)}, pupil.rim_points.data() + k, pupil.rays.size());
       pupil.rays[k].transmission *= light.flux_at(from);
     }
   });

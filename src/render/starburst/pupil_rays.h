@@ -19,7 +19,7 @@ struct PupilRay {
   Vec2 stop;  // in stop radii
   double transmission = 0;  // times LightSource::flux_at
   double iris = 0;  // signed distance from the iris's edge in stop radii, negative inside
-  double blocked = 0;  // the largest of iris and every rim's r_rel - 1
+  double blocked = 0;  // the largest of iris and every rim's relative_height - 1
   double obscured = -1;  // TracedRay::obscured
 };
 
@@ -27,11 +27,11 @@ struct PupilRays {
   int side = 0;
   double z_mm = 0;
   std::vector<PupilRay> rays;  // [row * side + column]
-  std::vector<Vec2> rim_places;  // [rim * rays.size() + ray]: in clear radii, for every refracting surface
+  std::vector<Vec2> rim_points;  // [rim * rays.size() + ray]: in clear radii, for every refracting surface
   std::size_t rims = 0;
   std::vector<bool> blocks_within;  // by rim: whether it is that of an obscuration
 
-  [[nodiscard]] Vec2 at_rim(std::size_t rim, std::size_t ray) const { return rim_places[rim * rays.size() + ray]; }
+  [[nodiscard]] Vec2 at_rim(std::size_t rim, std::size_t ray) const { return rim_points[rim * rays.size() + ray]; }
 };
 
 // nullopt when nothing gets through, or when cancelled.

@@ -10,8 +10,8 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr std::size_t kMostTerms = 45;  // those of the highest degree
-constexpr double kPivotFloor = 1e-12;  // of the first pivot: directions that the places do not determine get weight 0
+constexpr std::size_t kMaxTerms = 45;  // those of the highest degree
+constexpr double kPivotFloor = 1e-12;  // of the first pivot: directions that the points do not determine get weight 0
 
 // Solves by Cholesky decomposition, in place: a symmetric n x n matrix and one right-hand side.
 class Cholesky {
@@ -53,34 +53,34 @@ double half_of(double low, double high) { return high > low ? 0.5 * (high - low)
 
 }  // namespace
 
-SmoothFit::SmoothFit(std::span<const Vec2> places, std::span<const double> values, int degree)
-    : degree_(degree), functions_(values.size() / places.size()) {
-  assert(degree >= 0 && degree <= kHighestDegree && values.size() == functions_ * places.size());
+SmoothFit::SmoothFit(std::span<const Vec2> points, std::span<const double> values, int degree)
+    : degree_(degree), functions_(values.size() / points.size()) {
+  assert(degree >= 0 && degree <= kHighestDegree && values.size() == functions_ * points.size());
   const auto [left, right] =
-      std::minmax_element(places.begin(), places.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
-  const auto [low, high] = std::minmax_element(places.begin(), places.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
+      std::minmax_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  const auto [low, high] = std::minmax_element(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
   middle_ = {0.5 * (left->x + right->x), 0.5 * (low->y + high->y)};
   half_ = {half_of(left->x, right->x), half_of(low->y, high->y)};
 
   const std::size_t n = terms(degree_);
   std::vector<double> matrix(n * n);
   weights_.resize(functions_ * n);
-  std::array<double, kMostTerms> basis{};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    basis_at(places[i], basis.data());
+  std::array<double, kMaxTerms> basis{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    basis_at(points[i], basis.data());
     for (std::size_t r = 0; r < n; ++r)
       for (std::size_t c = 0; c < n; ++c) matrix[r * n + c] += basis[r] * basis[c];
     for (std::size_t f = 0; f < functions_; ++f)
-      for (std::size_t r = 0; r < n; ++r) weights_[f * n + r] += basis[r] * values[f * places.size() + i];
+      for (std::size_t r = 0; r < n; ++r) weights_[f * n + r] += basis[r] * values[f * points.size() + i];
   }
   const Cholesky normal(std::move(matrix), n);
   for (std::size_t f = 0; f < functions_; ++f) normal.solve(weights_.data() + f * n);
 }
 
-void SmoothFit::basis_at(Vec2 place, double* basis) const {
+void SmoothFit::basis_at(Vec2 point, double* basis) const {
   std::array<double, kHighestDegree + 1> tx, ty;
   tx[0] = ty[0] = 1.0;
-  const double x = (place.x - middle_.x) / half_.x, y = (place.y - middle_.y) / half_.y;
+  const double x = (point.x - middle_.x) / half_.x, y = (point.y - middle_.y) / half_.y;
   tx[1] = x;
   ty[1] = y;
   for (std::size_t k = 2; k <= static_cast<std::size_t>(degree_); ++k) {
@@ -91,9 +91,9 @@ void SmoothFit::basis_at(Vec2 place, double* basis) const {
     for (std::size_t k = 0; k <= total; ++k) *basis++ = tx[total - k] * ty[k];
 }
 
-void SmoothFit::evaluate(Vec2 place, double* values) const {
-  std::array<double, kMostTerms> basis;  // filled only as far as it is read: this runs for every sample near a border
-  basis_at(place, basis.data());
+void SmoothFit::evaluate(Vec2 point, double* values) const {
+  std::array<double, kMaxTerms> basis;  // filled only as far as it is read: this runs for every sample near a border
+  basis_at(point, basis.data());
   const std::size_t n = terms(degree_);
   for (std::size_t f = 0; f < functions_; ++f) {
     double sum = 0.0;
@@ -102,9 +102,9 @@ void SmoothFit::evaluate(Vec2 place, double* values) const {
   }
 }
 
-double SmoothFit::operator()(Vec2 place, std::size_t function) const {
-  std::array<double, kMostTerms> basis{};
-  basis_at(place, basis.data());
+double SmoothFit::operator()(Vec2 point, std::size_t function) const {
+  std::array<double, kMaxTerms> basis{};
+  basis_at(point, basis.data());
   const std::size_t n = terms(degree_);
   double sum = 0.0;
   for (std::size_t r = 0; r < n; ++r) sum += weights_[function * n + r] * basis[r];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Least-squares polynomials for smooth functions of a place that are known at scattered places. The basis consists of
-// products of Chebyshev polynomials over the places' bounding box, so that the normal equations stay well conditioned.
+// Least-squares polynomials for smooth functions of a point that are known at scattered points. The basis consists of
+// products of Chebyshev polynomials over the points' bounding box, so that the normal equations stay well conditioned.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ namespace contrejour::inline internal {
 class SmoothFit {
  public:
   static constexpr int kHighestDegree = 8;
-  static constexpr std::size_t kPlacesPerTerm = 3;  // the fewest with which a fit averages the measurements
+  static constexpr std::size_t kPointsPerTerm = 3;  // the fewest with which a fit averages the measurements
 
-  // values[f * places.size() + i]: the value of function f at places[i]. degree: the total degree in both coordinates.
-  SmoothFit(std::span<const Vec2> places, std::span<const double> values, int degree);
+  // values[f * points.size() + i]: the value of function f at points[i]. degree: the total degree in both coordinates.
+  SmoothFit(std::span<const Vec2> points, std::span<const double> values, int degree);
 
-  // Evaluates all functions at a place.
-  void evaluate(Vec2 place, double* values) const;
-  [[nodiscard]] double operator()(Vec2 place, std::size_t function = 0) const;
+  // Evaluates all functions at a point.
+  void evaluate(Vec2 point, double* values) const;
+  [[nodiscard]] double operator()(Vec2 point, std::size_t function = 0) const;
 
   [[nodiscard]] std::size_t functions() const { return functions_; }
   [[nodiscard]] static std::size_t terms(int degree) {
@@ -29,7 +29,7 @@ class SmoothFit {
   }
 
  private:
-  void basis_at(Vec2 place, double* basis) const;
+  void basis_at(Vec2 point, double* basis) const;
 
   int degree_;
   std::size_t functions_ = 0;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kBands = 120;  // every 3.3 nm; hullin2011 3.3 finds 5 nm fine enough
 constexpr std::size_t kWorthLayingOut = 3;  // lights, from which on the starburst is laid out once
-constexpr double kMostLaidOut = 8388608.0;  // pixels of a frame: 200 MB
+constexpr double kMaxLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
 constexpr int kSamplesForDirt = 128;  // across a pupil that serves only to find the transmittance of dirt
 
@@ -37,7 +37,7 @@ double distance_to_farthest_corner(const Frame& frame, Vec2 from_px) {
 
 // The fraction of a light outside the frame that gets through, relative to the light where its flux is measured
 // (docs/physics/radiometry.md).
-double share_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, const LightSource& light) {
+double fraction_outside(const GhostMeter& meter, const LensState& lens, const Frame& frame, const LightSource& light) {
   const double flux_mm2 = meter.direct_flux(light);
   if (!(flux_mm2 > 0.0)) return 0.0;
   const double measured_mm2 = meter.direct_flux(measured_source(lens, frame, light));
@@ -50,7 +50,7 @@ bool is_outside(const Frame& frame, Vec2 sensor_mm) {
   return std::max(std::abs(uv.x - 0.5), std::abs(uv.y - 0.5)) > 0.5;
 }
 
-// The place of each light's image, and the flux of its starburst. Lights without any are left out.
+// The position of each light's image, and the flux of its starburst. Lights without any are left out.
 std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Light> lights,
                                       const FrameSettings& settings, const Context& context) {
   const Frame& frame = settings.frame;
@@ -63,18 +63,18 @@ std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Lig
   std::optional<GhostMeter> meter;
   if (std::any_of(sensor_mm.begin(), sensor_mm.end(), [&](Vec2 p) { return is_outside(frame, p); }))
     meter.emplace(lens, lens.design_wavelength_nm);
-  std::vector<double> share(lights.size(), 1.0);
+  std::vector<double> fraction(lights.size(), 1.0);
   parallel_for(lights.size(), context, [&](std::size_t k) {
     const double from_middle_px = length(frame.pixel_from_sensor(sensor_mm[k]) - middle_px);
     if (!(from_middle_px < farthest_px))
-      share[k] = 0.0;
+      fraction[k] = 0.0;
     else if (is_outside(frame, sensor_mm[k]))
-      share[k] = share_outside(*meter, lens, frame, lights[k].source());
+      fraction[k] = fraction_outside(*meter, lens, frame, lights[k].source());
   });
   std::vector<ImagedLight> imaged;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     ImagedLight light{k, frame.pixel_from_sensor(sensor_mm[k]), lights[k].value};
-    for (double& value : light.flux) value *= share[k];
+    for (double& value : light.flux) value *= fraction[k];
     if (light.flux != Rgb{}) imaged.push_back(light);
   }
   return imaged;
@@ -104,17 +104,17 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
 
 // With many lights it is faster to lay the starburst out once.
 Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, const Context& context) {
-  StarburstSheet sheet;
+  StarburstImage starburst_image;
   const bool lays_out =
-      group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMostLaidOut;
+      group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMaxLaidOut;
   if (lays_out) {
     const auto laid = lay_out(starburst, image.width, image.height, context);
     if (!laid) return tl::unexpected(laid.error());
-    sheet = *laid;
+    starburst_image = *laid;
   }
   for (const ImagedLight& light : group) {
     if (lays_out)
-      add_starburst(image, sheet, light.centre_px, light.flux, context);
+      add_starburst(image, starburst_image, light.centre_px, light.flux, context);
     else
       add_starburst(image, starburst, light.centre_px, light.flux, context);
     if (context.cancelled()) return interrupted();
@@ -156,7 +156,7 @@ void multiply_flux(std::vector<ImagedLight>& lights, double factor) {
 // The flux that glare scatters is taken from the light's own image, so that both together sum to its value.
 Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState& lens, std::span<const Light> lights,
                              const FrameSettings& settings, const Context& context) {
-  const double gain = settings.starburst.gain * (1.0 - settings.glare.share);
+  const double gain = settings.starburst.gain * (1.0 - settings.glare.fraction);
   multiply_flux(imaged.points, gain);
   multiply_flux(imaged.areas, gain);
   const auto groups = group_lights(lights, imaged.points, settings.frame);
@@ -202,7 +202,7 @@ Result<void> draw_glare(Image& image, std::vector<ImagedLight> imaged, const Len
                         std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   if (lens.dirt.any())
     if (auto ok = take_dirt_off(imaged, lens, lights, settings.frame, context); !ok) return ok;
-  multiply_flux(imaged, settings.glare.share);
+  multiply_flux(imaged, settings.glare.fraction);
   const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
   const SortedLights sorted = sorted_by_size(imaged, lights);
   add_glare(image, sorted.points, r0_mm / settings.frame.pixel_pitch_mm, context);
@@ -228,9 +228,9 @@ Result<void> check_left_out(const Image& left_out, const Frame& frame) {
       left_out.pixels.size() != left_out.index(0, left_out.height))
     return tl::unexpected(invalid(fmt::format(
         "what a starburst leaves out must be one channel of {} x {} pixels, as the frame", frame.width, frame.height)));
-  const bool shares = std::all_of(left_out.pixels.begin(), left_out.pixels.end(),
-                                  [](float share) { return share >= 0.0F && share <= 1.0F; });
-  if (!shares) return tl::unexpected(invalid("what a starburst leaves out of a pixel must be a share from 0 to 1"));
+  const bool in_range = std::all_of(left_out.pixels.begin(), left_out.pixels.end(),
+                                    [](float fraction) { return fraction >= 0.0F && fraction <= 1.0F; });
+  if (!in_range) return tl::unexpected(invalid("what a starburst leaves out of a pixel must be a share from 0 to 1"));
   return {};
 }
 
@@ -240,11 +240,11 @@ Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& se
     if (auto good = check_light(lights[k], settings.colour_space); !good)
       return tl::unexpected(invalid(fmt::format("imaged light {}: {}", k + 1, good.error().message)));
     const Rgb& value = lights[k].value;
-    const double most = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
-    if (!(most * gain <= kMaxLightValue))
+    const double largest = std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
+    if (!(largest * gain <= kMaxLightValue))
       return tl::unexpected(invalid(
           fmt::format("imaged light {}: its value of {:.4g} times the starburst's gain, {:.4g}, is beyond {:.0e}",
-                      k + 1, most, gain, kMaxLightValue)));
+                      k + 1, largest, gain, kMaxLightValue)));
   }
   return {};
 }
@@ -262,7 +262,7 @@ Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const
     count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
-  if (settings.glare.share > 0.0 && !context.cancelled()) {
+  if (settings.glare.fraction > 0.0 && !context.cancelled()) {
     if (auto drawn = draw_glare(image, imaged, lens, lights, settings, quiet); !drawn) return drawn;
     count_last(statistics, "glare", ms_since(start));
   }
@@ -277,8 +277,8 @@ Result<void> check_light_images(std::span<const Light> lights, const FrameSettin
   const GlareOptions& glare = settings.glare;
   if (!(starburst.gain >= 0.0) || !std::isfinite(starburst.gain))
     return tl::unexpected(invalid(fmt::format("a starburst's gain must be 0 or more, not {}", starburst.gain)));
-  if (!(glare.share >= 0.0 && glare.share <= 1.0))
-    return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.share)));
+  if (!(glare.fraction >= 0.0 && glare.fraction <= 1.0))
+    return tl::unexpected(invalid(fmt::format("glare is a share of the light from 0 to 1, not {}", glare.fraction)));
   if (!(glare.width_rad > 0.0 && glare.width_rad < 0.5 * std::numbers::pi))
     return tl::unexpected(invalid(fmt::format("glare cannot be {} radians wide", glare.width_rad)));
   if (auto usable = check_imaged(starburst.lights ? std::span<const Light>(*starburst.lights) : lights, settings);

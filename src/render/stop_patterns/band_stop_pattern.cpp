@@ -5,19 +5,19 @@
 
 namespace contrejour::inline internal::stop_patterns {
 
-bool BandStopPattern::is_grey() const {
+bool BandStopPattern::is_monochrome() const {
   return parts.size() == 1 && parts.front().channel == std::array{1.0F, 1.0F, 1.0F};
 }
 
-void BandStopPattern::add(const Part& part, const EdgeProfile::Range& range, const PatternHull& visible) {
+void BandStopPattern::add(const Part& part, const EdgeProfile::Range& range, const BoundingPolygon& visible) {
   parts.push_back(part);
-  hull.hold(visible);
+  bounding_polygon.include(visible);
   const EdgePattern* const edge = part.pattern->edges();
   edges = edge == nullptr || (parts.size() > 1 && edges == nullptr) ? nullptr : parts.front().pattern->edges();
   if (edge == nullptr) return;
-  unit = std::min(unit, edge->unit());
-  dark_beyond = std::max(dark_beyond, -range.dark * edge->unit());
-  level_within = std::max(level_within, range.level * edge->unit());
+  fringe_unit = std::min(fringe_unit, edge->fringe_unit());
+  dark_beyond = std::max(dark_beyond, -range.dark * edge->fringe_unit());
+  level_within = std::max(level_within, range.level * edge->fringe_unit());
 }
 
 std::vector<const PatternTexture*> BandStopPattern::textures() const {
@@ -56,12 +56,12 @@ PatternView BandStopPattern::over(Vec2 middle, double radius) const {
     return {distance + radius < -level_within ? PatternRegion::Uniform : PatternRegion::Varying,
             outside > 0.0 ? edges->edge(outside, 0.0) : 1.0};
   }
-  if (texture && hull.misses(middle, radius)) return {PatternRegion::Dark, 0.0};
-  const double most = texture ? std::min(brightest(middle, radius), 1.0) : 1.0;
+  if (texture && bounding_polygon.excludes(middle, radius)) return {PatternRegion::Dark, 0.0};
+  const double max_transmittance = texture ? std::min(brightest(middle, radius), 1.0) : 1.0;
   const PatternRegion first = parts.front().pattern->region(middle, radius, kUniform);
   for (std::size_t k = 1; k < parts.size() && first != PatternRegion::Varying; ++k)
-    if (parts[k].pattern->region(middle, radius, kUniform) != first) return {PatternRegion::Varying, most};
-  return {first, most};
+    if (parts[k].pattern->region(middle, radius, kUniform) != first) return {PatternRegion::Varying, max_transmittance};
+  return {first, max_transmittance};
 }
 
 }  // namespace contrejour::inline internal::stop_patterns

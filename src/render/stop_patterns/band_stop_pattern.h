@@ -17,7 +17,7 @@ namespace contrejour::inline internal::stop_patterns {
 // The part of a stop pattern that a disc covers: its kind, and about its largest transmittance, at most 1.
 struct PatternView {
   PatternRegion part;
-  double most;
+  double max_transmittance;
 };
 
 struct BandStopPattern {
@@ -26,24 +26,24 @@ struct BandStopPattern {
     std::array<float, 3> channel{};
   };
   std::vector<Part> parts;
-  [[nodiscard]] bool is_grey() const;  // a single part with all light of every channel
+  [[nodiscard]] bool is_monochrome() const;  // a single part with all light of every channel
 
   [[nodiscard]] std::array<double, 3> transmittance(std::span<const StopPoint> points) const;
   // Dark or uniform where all parts are.
   [[nodiscard]] PatternView over(Vec2 middle, double radius) const;
 
-  double unit = 0.1;  // no fringe is much finer
+  double fringe_unit = 0.1;  // no fringe is much finer
   // The next three describe edges' fringes, which are negligible beyond these distances outside and inside a bound.
   const EdgePattern* edges = nullptr;  // of the first part, if all parts have edges' fringes
   double dark_beyond = 0.0, level_within = 0.0;
   std::shared_ptr<const BandTexture> texture;  // of all parts, if all are patterns of the whole iris
-  PatternHull hull;  // bounding polygon of such a pattern's visible light
+  BoundingPolygon bounding_polygon;  // bounding polygon of such a pattern's visible light
   [[nodiscard]] double brightest(Vec2 middle, double radius) const;
-  double unseen = 0.0;  // pixel values that are negligible
+  double negligible_level = 0.0;  // pixel values that are negligible
 
-  // Adds a part. range: the visible range of edges' fringes, in the profile's units; hull: the bounding polygon of the
-  // visible light, if it is a pattern of the whole iris.
-  void add(const Part& part, const EdgeProfile::Range& range, const PatternHull& visible);
+  // Adds a part. range: the visible range of edges' fringes, in the profile's units; bounding_polygon: the bounding
+  // polygon of the visible light, if it is a pattern of the whole iris.
+  void add(const Part& part, const EdgeProfile::Range& range, const BoundingPolygon& visible);
   // The textures of all parts; empty if some part has none.
   [[nodiscard]] std::vector<const PatternTexture*> textures() const;
 };

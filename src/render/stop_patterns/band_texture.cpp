@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "render/polygons/short_light.h"
+#include "render/polygons/packed_irradiance.h"
 #include "render/stop_patterns/resampled.h"
 
 namespace contrejour::inline internal::stop_patterns {
 namespace {
 
-using raster::ShortLight;
+using raster::PackedIrradiance;
 using raster::TextureTable;
 
 // Samples of a level with their border, interleaved.
@@ -55,7 +55,7 @@ Grid halved(const Grid& fine) {
 
 // Appends the grid's samples as pairs of packed ones, and sets how the level packs them.
 void pack(const Grid& grid, std::vector<TextureTable::Pair>& pairs, TextureTable::Level& level) {
-  const ShortLight packing(*std::max_element(grid.samples.begin(), grid.samples.end()));
+  const PackedIrradiance packing(*std::max_element(grid.samples.begin(), grid.samples.end()));
   level.lowest = packing.lowest();
   const std::size_t first = pairs.size(), pitch = grid.pitch();
   pairs.resize(first + grid.samples.size());
@@ -103,7 +103,7 @@ BandTexture::BandTexture(raster::TextureTable table, raster::PatternAtlas& atlas
     : index_(atlas.add(std::move(table))), table_(atlas.texture(index_)) {}
 
 std::uint32_t BandTexture::level_for(double width) const {
-  const double level = std::round(HalvedPicture::level_for(width, table_.levels.front().side, table_.extent));
+  const double level = std::round(DownsampledPicture::level_for(width, table_.levels.front().side, table_.extent));
   return static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(std::max(level, 0.0)), table_.levels.size() - 1));
 }
 
@@ -114,13 +114,13 @@ float BandTexture::brightest(Vec2 middle, double distance) const {
   if (fit >= table_.levels.size()) return table_.largest_of_last;
   const TextureTable::Level& level = table_.levels[fit];
   const auto at = [&](double p) {  // index of the first of the two samples next to p, counting the border
-    const double place = (p / table_.extent + 1.0) * 0.5 * level.side + 0.5;
-    return place > 0.0 ? static_cast<std::size_t>(std::min(place, level.side + 0.0)) : 0;  // also 0 for NaN
+    const double position = (p / table_.extent + 1.0) * 0.5 * level.side + 0.5;
+    return position > 0.0 ? static_cast<std::size_t>(std::min(position, level.side + 0.0)) : 0;  // also 0 for NaN
   };
   const std::size_t x = at(middle.x), y = at(-middle.y), pitch = static_cast<std::size_t>(level.pitch());
   if (of_one()) {
     const TextureTable::Pair* const pair = table_.pairs.data() + level.first + y * pitch + x;
-    return ShortLight::of_lowest(level.lowest)
+    return PackedIrradiance::of_lowest(level.lowest)
         .light(std::max({pair[0].here, pair[0].below, pair[1].here, pair[1].below}));
   }
   constexpr std::size_t kStride = TextureTable::kStride;

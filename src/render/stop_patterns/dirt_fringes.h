@@ -12,7 +12,7 @@
 #include "contrejour/context.h"
 #include "contrejour/expert/dirt.h"
 #include "render/planning/dirt_field.h"
-#include "render/stop_patterns/fringed_plane.h"
+#include "render/stop_patterns/dirt_diffraction.h"
 
 namespace contrejour::inline internal::stop_patterns {
 
@@ -23,7 +23,7 @@ class DirtFringes {
     double extent_mm = 0.0;  // of its plane
     friend bool operator==(const Key&, const Key&) = default;
   };
-  struct Wanted {
+  struct Request {
     double lambda_z_mm2 = 1.0;  // at the middle of the band
     double spread = 0.0;  // RMS spread of its wavelengths over their mean
   };
@@ -32,19 +32,19 @@ class DirtFringes {
 
   // field: must be of the key's dirt and plane. Makes the planes that do not exist yet, on all threads. Returns false
   // if cancelled.
-  bool make(const DirtField& field, std::span<const Wanted> wanted, const Context& context);
-  [[nodiscard]] std::shared_ptr<const FringedPlane> plane(const Wanted& wanted) const;  // null unless made
+  bool make(const DirtField& field, std::span<const Request> requested, const Context& context);
+  [[nodiscard]] std::shared_ptr<const DirtDiffraction> plane(const Request& requested) const;  // null unless made
   [[nodiscard]] std::size_t count() const { return planes_.size(); }
 
  private:
   struct PlaneKey {
-    int rung = 0, spread = 0;
+    int node = 0, spread = 0;
     friend auto operator<=>(const PlaneKey&, const PlaneKey&) = default;
   };
-  [[nodiscard]] static PlaneKey key_of(const Wanted& wanted);
+  [[nodiscard]] static PlaneKey key_of(const Request& requested);
 
   std::map<int, std::shared_ptr<const StraightEdge>> edges_;  // by spread
-  std::map<PlaneKey, std::shared_ptr<const FringedPlane>> planes_;
+  std::map<PlaneKey, std::shared_ptr<const DirtDiffraction>> planes_;
 };
 
 }  // namespace contrejour::inline internal::stop_patterns

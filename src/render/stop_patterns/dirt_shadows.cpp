@@ -7,7 +7,7 @@
 namespace contrejour::inline internal {
 
 DirtShadows::DirtShadows(std::shared_ptr<const DirtField> field,
-                         std::vector<std::shared_ptr<const stop_patterns::FringedPlane>> fringes)
+                         std::vector<std::shared_ptr<const stop_patterns::DirtDiffraction>> fringes)
     : field_(std::move(field)), fringes_(std::move(fringes)) {
   for (const auto& plane : fringes_)
     if (plane) level_ *= plane->level();
@@ -26,7 +26,7 @@ bool DirtShadows::is_clean(Vec2 middle_mm, double radius_mm, std::size_t crossin
 DirtEdges DirtShadows::edges() const {
   DirtEdges edges = field_->edges();
   for (const auto& plane : fringes_)
-    if (plane) edges.softness_mm = std::max(edges.softness_mm, plane->unit_mm());
+    if (plane) edges.edge_width_mm = std::max(edges.edge_width_mm, plane->fringe_unit_mm());
   return edges;
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "render/planning/dirt_field.h"
-#include "render/stop_patterns/fringed_plane.h"
+#include "render/stop_patterns/dirt_diffraction.h"
 
 namespace contrejour::inline internal {
 
@@ -22,7 +22,7 @@ class DirtShadows {
   explicit DirtShadows(std::shared_ptr<const DirtField> field) : DirtShadows(std::move(field), {}) {}
   // fringes: the plane at each crossing of the stop, or at the front; null: shadows there are sharp.
   DirtShadows(std::shared_ptr<const DirtField> field,
-              std::vector<std::shared_ptr<const stop_patterns::FringedPlane>> fringes);
+              std::vector<std::shared_ptr<const stop_patterns::DirtDiffraction>> fringes);
 
   [[nodiscard]] const DirtSite& site() const { return field_->site(); }
   [[nodiscard]] bool is_sharp() const { return fringes_.empty(); }
@@ -45,12 +45,12 @@ class DirtShadows {
   [[nodiscard]] const DirtField* outlines() const { return is_sharp() ? field_->outlines() : nullptr; }
 
  private:
-  [[nodiscard]] const stop_patterns::FringedPlane* fringes_at(std::size_t crossing) const {
+  [[nodiscard]] const stop_patterns::DirtDiffraction* fringes_at(std::size_t crossing) const {
     return is_sharp() ? nullptr : fringes_[std::min(crossing, fringes_.size() - 1)].get();
   }
 
   std::shared_ptr<const DirtField> field_;
-  std::vector<std::shared_ptr<const stop_patterns::FringedPlane>> fringes_;
+  std::vector<std::shared_ptr<const stop_patterns::DirtDiffraction>> fringes_;
   double level_ = 1.0;
 };
 

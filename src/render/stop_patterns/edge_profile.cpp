@@ -35,9 +35,9 @@ class OneWavelength {
   }
 
   [[nodiscard]] double at(double t) const {
-    const double place = std::clamp((t - first_) / kFine, 0.0, static_cast<double>(value_.size()) - 1.001);
-    const auto k = static_cast<std::size_t>(place);
-    return std::lerp(value_[k], value_[k + 1], place - static_cast<double>(k));
+    const double position = std::clamp((t - first_) / kFine, 0.0, static_cast<double>(value_.size()) - 1.001);
+    const auto k = static_cast<std::size_t>(position);
+    return std::lerp(value_[k], value_[k + 1], position - static_cast<double>(k));
   }
 
  private:
@@ -114,9 +114,9 @@ double EdgeProfile::squared_error(Range range) const {
 double EdgeProfile::at(double t, double width) const {
   if (t + 0.5 * width <= kDarkBelow) return 0.0;
   if (t - 0.5 * width >= kLevelAbove) return 1.0;
-  const auto between = [](const std::vector<double>& table, double place) {
-    const auto k = std::min(static_cast<std::size_t>(place), table.size() - 2);
-    return table[k] + (table[k + 1] - table[k]) * (place - static_cast<double>(k));
+  const auto between = [](const std::vector<double>& table, double position) {
+    const auto k = std::min(static_cast<std::size_t>(position), table.size() - 2);
+    return table[k] + (table[k + 1] - table[k]) * (position - static_cast<double>(k));
   };
   if (width < kStep)
     return between(value_, std::clamp((t - kDarkBelow) / kStep, 0.0, static_cast<double>(value_.size()) - 1.0));

@@ -18,13 +18,13 @@ constexpr int kSectors = 4 * kSectorsOfQuadrant;
 // Sectors are spaced evenly along the square |x| + |y| = 1, which requires no angles.
 int sector_of(double x, double y) {
   const double along = kSectorsOfQuadrant / (std::abs(x) + std::abs(y));
-  const double turned =
+  const double sector_angle =
       x >= 0.0 ? (y >= 0.0 ? y * along : 4 * kSectorsOfQuadrant + y * along) : 2 * kSectorsOfQuadrant - y * along;
-  return std::clamp(static_cast<int>(turned), 0, kSectors - 1);
+  return std::clamp(static_cast<int>(sector_angle), 0, kSectors - 1);
 }
 Vec2 direction_at(double sector) {
-  const double quadrant = std::floor(sector / kSectorsOfQuadrant), way = sector / kSectorsOfQuadrant - quadrant;
-  const Vec2 first = Vec2{1.0 - way, way} * (1.0 / std::hypot(1.0 - way, way));
+  const double quadrant = std::floor(sector / kSectorsOfQuadrant), fraction = sector / kSectorsOfQuadrant - quadrant;
+  const Vec2 first = Vec2{1.0 - fraction, fraction} * (1.0 / std::hypot(1.0 - fraction, fraction));
   const auto turns = static_cast<int>(quadrant) % 4;
   return turns == 0   ? first
          : turns == 1 ? Vec2{-first.y, first.x}
@@ -33,11 +33,11 @@ Vec2 direction_at(double sector) {
 }
 
 // The bounding polygon of each sector of a disc of radius 1: of the ends and the middle of its arc.
-const std::array<PatternHull, kSectors>& sector_hulls() {
+const std::array<BoundingPolygon, kSectors>& sector_hulls() {
   static const auto all = [] {
-    std::array<PatternHull, kSectors> hulls;
+    std::array<BoundingPolygon, kSectors> hulls;
     for (std::size_t sector = 0; sector < hulls.size(); ++sector)
-      for (const double at : {0.0, 0.5, 1.0}) hulls[sector].hold(direction_at(static_cast<double>(sector) + at));
+      for (const double at : {0.0, 0.5, 1.0}) hulls[sector].include(direction_at(static_cast<double>(sector) + at));
     return hulls;
   }();
   return all;
@@ -64,38 +64,38 @@ std::size_t count_passing(std::span<const T> all, std::size_t guess, const Test&
 
 PatternTexture::PatternTexture(int side, double extent, std::vector<float> samples)
     : picture_(side, extent, std::move(samples)) {
-  find_rests();
+  find_remainders();
 }
 
 // What each ring of each sector contains itself.
-std::vector<PatternTexture::SectorRest> PatternTexture::sector_rings() const {
+std::vector<PatternTexture::SectorRemainder> PatternTexture::sector_rings() const {
   const auto pitch = static_cast<float>(2.0 * extent() / side());
   const float area = pitch * pitch;
   const std::size_t steps = rings() + 1;
-  std::vector<SectorRest> out(kSectors * steps);
+  std::vector<SectorRemainder> out(kSectors * steps);
   const float* value = samples().data();
   for (int row = 0; row < side(); ++row) {
     const double y = 0.5 * side() - row - 0.5;
     for (int column = 0; column < side(); ++column, ++value) {
       const double x = column + 0.5 - 0.5 * side();
       const std::size_t ring = std::min(static_cast<std::size_t>(std::sqrt(x * x + y * y)), rings());
-      SectorRest& rest = out[static_cast<std::size_t>(sector_of(x, y)) * steps + ring];
-      rest.brightest = std::max(rest.brightest, *value);
-      rest.flux += *value * area;
-      rest.squared += *value * *value * area;
+      SectorRemainder& remainder = out[static_cast<std::size_t>(sector_of(x, y)) * steps + ring];
+      remainder.brightest = std::max(remainder.brightest, *value);
+      remainder.flux += *value * area;
+      remainder.squared += *value * *value * area;
     }
   }
   return out;
 }
 
 // Sums, from each ring outwards, over all sectors and by sector.
-void PatternTexture::find_rests() {
-  sector_rest_ = sector_rings();
+void PatternTexture::find_remainders() {
+  sector_remainders_ = sector_rings();
   const std::size_t steps = rings() + 1;
-  rest_.assign(steps, {});
-  for (std::size_t k = 0; k < sector_rest_.size(); ++k) {
-    const SectorRest& from = sector_rest_[k];
-    Rest& to = rest_[k % steps];
+  remainders_.assign(steps, {});
+  for (std::size_t k = 0; k < sector_remainders_.size(); ++k) {
+    const SectorRemainder& from = sector_remainders_[k];
+    Remainder& to = remainders_[k % steps];
     to = {std::max(to.brightest, static_cast<double>(from.brightest)), to.squared + from.squared, to.flux + from.flux};
   }
   const auto add_outer = [&](auto* of) {
@@ -105,38 +105,42 @@ void PatternTexture::find_rests() {
       of[k].flux += of[k + 1].flux;
     }
   };
-  add_outer(rest_.data());
-  for (std::size_t sector = 0; sector < kSectors; ++sector) add_outer(&sector_rest_[sector * steps]);
+  add_outer(remainders_.data());
+  for (std::size_t sector = 0; sector < kSectors; ++sector) add_outer(&sector_remainders_[sector * steps]);
 }
 
-PatternHull PatternTexture::hull_above(double level, double flux) const {
+BoundingPolygon PatternTexture::bounding_polygon_above(double level, double flux) const {
   const std::size_t steps = rings() + 1;
-  const double most_flux = flux * rest_.front().flux / kSectors;
-  const auto bright = [&](const SectorRest& rest) { return rest.brightest > level || rest.flux > most_flux; };
-  PatternHull hull;
+  const double max_flux = flux * remainders_.front().flux / kSectors;
+  const auto bright = [&](const SectorRemainder& remainder) {
+    return remainder.brightest > level || remainder.flux > max_flux;
+  };
+  BoundingPolygon bounding_polygon;
   std::size_t dark = steps / 2;
   for (std::size_t sector = 0; sector < kSectors; ++sector) {
-    dark = count_passing(std::span(sector_rest_).subspan(sector * steps, steps), dark, bright);
+    dark = count_passing(std::span(sector_remainders_).subspan(sector * steps, steps), dark, bright);
     const double radius = std::min(static_cast<double>(dark) * 2.0 * extent() / side(), extent());
-    hull.hold(sector_hulls()[sector], radius);
+    bounding_polygon.include(sector_hulls()[sector], radius);
   }
-  return hull;
+  return bounding_polygon;
 }
 
-double PatternTexture::reach_above(double level) const {
-  const double most_flux = kFluxBeyond * rest_.front().flux;
-  const auto bright = [&](const Rest& rest) { return rest.brightest > level || rest.flux > most_flux; };
-  const auto first = std::partition_point(rest_.begin(), rest_.end(), bright);
-  return std::min(static_cast<double>(first - rest_.begin()) * 2.0 * extent() / side(), extent());
+double PatternTexture::radius_above(double level) const {
+  const double max_flux = kFluxBeyond * remainders_.front().flux;
+  const auto bright = [&](const Remainder& remainder) {
+    return remainder.brightest > level || remainder.flux > max_flux;
+  };
+  const auto first = std::partition_point(remainders_.begin(), remainders_.end(), bright);
+  return std::min(static_cast<double>(first - remainders_.begin()) * 2.0 * extent() / side(), extent());
 }
 
-const PatternTexture::Rest& PatternTexture::rest_beyond(double radius) const {
+const PatternTexture::Remainder& PatternTexture::remainder_beyond(double radius) const {
   const double ring = std::max(radius, 0.0) * 0.5 * side() / extent();
-  return rest_[std::min(static_cast<std::size_t>(ring), rest_.size() - 1)];
+  return remainders_[std::min(static_cast<std::size_t>(ring), remainders_.size() - 1)];
 }
 
-double PatternTexture::brightest_beyond(double radius) const { return rest_beyond(radius).brightest; }
-double PatternTexture::squared_beyond(double radius) const { return rest_beyond(radius).squared; }
+double PatternTexture::brightest_beyond(double radius) const { return remainder_beyond(radius).brightest; }
+double PatternTexture::squared_beyond(double radius) const { return remainder_beyond(radius).squared; }
 
 double PatternTexture::flux() const {
   const double pitch = 2.0 * extent() / side();

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contrejour/expert/vec.h"
-#include "render/stop_patterns/halved_picture.h"
-#include "render/stop_patterns/pattern_hull.h"
+#include "render/stop_patterns/bounding_polygon.h"
+#include "render/stop_patterns/downsampled_picture.h"
 
 namespace contrejour::inline internal::stop_patterns {
 
@@ -26,30 +26,30 @@ class PatternTexture {
   [[nodiscard]] double flux() const;  // integral over the plane
 
   // The radius beyond which the pattern is nowhere brighter than `level` and has only a small part of its flux.
-  [[nodiscard]] double reach_above(double level) const;
+  [[nodiscard]] double radius_above(double level) const;
   // A bounding polygon with the same property, smaller than the circle if the pattern is not round. flux: the fraction
   // that may lie outside.
-  [[nodiscard]] PatternHull hull_above(double level, double flux) const;
+  [[nodiscard]] BoundingPolygon bounding_polygon_above(double level, double flux) const;
   [[nodiscard]] double brightest_beyond(double radius) const;
   // The integral of the squared pattern outside a radius.
   [[nodiscard]] double squared_beyond(double radius) const;
 
  private:
-  struct Rest {  // outside a radius
+  struct Remainder {  // outside a radius
     double brightest = 0.0, squared = 0.0, flux = 0.0;
   };
-  [[nodiscard]] const Rest& rest_beyond(double radius) const;
+  [[nodiscard]] const Remainder& remainder_beyond(double radius) const;
 
-  struct SectorRest {
+  struct SectorRemainder {
     float brightest = 0.0F, squared = 0.0F, flux = 0.0F;
   };
-  [[nodiscard]] std::vector<SectorRest> sector_rings() const;
-  void find_rests();
+  [[nodiscard]] std::vector<SectorRemainder> sector_rings() const;
+  void find_remainders();
   [[nodiscard]] std::size_t rings() const { return static_cast<std::size_t>(side() / 2); }  // each a sample wide
 
-  HalvedPicture picture_;
-  std::vector<Rest> rest_;  // by equal steps of the radius up to the extent
-  std::vector<SectorRest> sector_rest_;  // the same, by sector
+  DownsampledPicture picture_;
+  std::vector<Remainder> remainders_;  // by equal steps of the radius up to the extent
+  std::vector<SectorRemainder> sector_remainders_;  // the same, by sector
 };
 
 }  // namespace contrejour::inline internal::stop_patterns

@@ -14,7 +14,7 @@ struct Between {
   float inside = 1.0F;
 };
 
-std::vector<Between> places_between(int side, double extent, const SquareSamples& from) {
+std::vector<Between> positions_between(int side, double extent, const SquareSamples& from) {
   std::vector<Between> out;
   for (int k = 0; k < side; ++k) {
     const double p = (k + 0.5) * 2.0 * extent / side - extent;
@@ -32,15 +32,15 @@ std::vector<Between> places_between(int side, double extent, const SquareSamples
 
 // Interpolates between rows first, since that uses whole vectors.
 std::vector<float> resampled(const SquareSamples& from, int side, double extent) {
-  const auto places = places_between(side, extent, from);
+  const auto positions = positions_between(side, extent, from);
   const auto count = static_cast<std::size_t>(from.side);
   std::vector<float> out, row(count);
-  out.reserve(places.size() * places.size());
-  for (const Between& y : places) {
+  out.reserve(positions.size() * positions.size());
+  for (const Between& y : positions) {
     const float* const above = from.samples.data() + y.low * count;
     const float* const below = from.samples.data() + y.high * count;
     for (std::size_t k = 0; k < count; ++k) row[k] = (above[k] + y.to_high * (below[k] - above[k])) * y.inside;
-    for (const Between& x : places) out.push_back((row[x.low] + x.to_high * (row[x.high] - row[x.low])) * x.inside);
+    for (const Between& x : positions) out.push_back((row[x.low] + x.to_high * (row[x.high] - row[x.low])) * x.inside);
   }
   return out;
 }

@@ -27,7 +27,7 @@ double distance_from(const IrisShape& iris, Vec2 p) {
 
 // The half-tone of a picture as the iris; otherwise 1.
 double tone(const IrisShape& iris, const StopPoint& point) {
-  return iris.has_tones() ? iris.picture_transmittance(point.at, point.width) : 1.0;
+  return iris.has_half_tones() ? iris.picture_transmittance(point.at, point.width) : 1.0;
 }
 
 }  // namespace

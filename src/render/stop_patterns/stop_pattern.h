@@ -45,7 +45,7 @@ class EdgePattern {
   [[nodiscard]] double distance(Vec2 p) const;  // from the opening, negative inside; too small beyond a corner
   [[nodiscard]] const IrisShape& iris() const { return *iris_; }
   [[nodiscard]] const EdgeProfile& profile() const { return *profile_; }
-  [[nodiscard]] double unit() const { return 1.0 / scale_; }  // of the profile's positions, stop radii
+  [[nodiscard]] double fringe_unit() const { return 1.0 / scale_; }  // of the profile's positions, stop radii
 
  private:
   std::shared_ptr<const IrisShape> iris_;

@@ -16,27 +16,27 @@ namespace {
 
 constexpr int kMaskSamples = 256;     // across the stop
 constexpr int kPatternSide = 192;
-constexpr double kRungsPerOctave = 32.0;  // fringes of successive steps differ by 1 per cent
+constexpr double kNodesPerOctave = 32.0;  // fringes of successive steps differ by 1 per cent
 constexpr double kSpreadStep = 0.002;
 constexpr double kFade = 0.9;  // of the extent, beyond which a pattern fades to zero
 
 constexpr int kFractionalSide = 512;
 constexpr double kFractionalExtent = 4.0 / 3.0;  // stop radii
 
-double fresnel_at(int rung) { return std::exp2(rung / kRungsPerOctave); }
-int rung_of(double fresnel_number) {
+double fresnel_at(int node) { return std::exp2(node / kNodesPerOctave); }
+int node_of(double fresnel_number) {
   const double f = std::clamp(fresnel_number, StopPatterns::kLowestFresnel, StopPatterns::kHighestFresnel);
-  return static_cast<int>(std::lround(kRungsPerOctave * std::log2(f)));
+  return static_cast<int>(std::lround(kNodesPerOctave * std::log2(f)));
 }
 
 PupilMask mask_of(const Iris& iris, const MaskGrid& grid, const Context& context) {
   if (!iris.field) return make_mask(grid, IrisOpening(iris), 1.0, context);
   PupilMask mask = make_mask(grid, [&](Vec2 p) { return iris_distance(iris, p); }, context);
   // The amplitude of a wave is the root of the transmittance (hullin2011 3.2).
-  for (std::size_t k = 0; iris.field->has_tones() && k < mask.amplitude.size(); ++k) {
+  for (std::size_t k = 0; iris.field->has_half_tones() && k < mask.amplitude.size(); ++k) {
     const auto side = static_cast<std::size_t>(grid.side);
-    const Vec2 place = grid.place_mm(static_cast<int>(k % side), static_cast<int>(k / side));
-    mask.amplitude[k] *= static_cast<float>(std::sqrt(iris_transmittance(iris, place, grid.pitch_mm)));
+    const Vec2 point = grid.position_mm(static_cast<int>(k % side), static_cast<int>(k / side));
+    mask.amplitude[k] *= static_cast<float>(std::sqrt(iris_transmittance(iris, point, grid.pitch_mm)));
   }
   return mask;
 }
@@ -60,10 +60,10 @@ PatternTexture trimmed(int side, double extent, std::vector<float> samples, doub
 }
 
 // The steps of the Fresnel grid that a band covers: F varies as 1 / lambda, over a uniform band with that spread.
-std::pair<int, int> rungs_of(int rung, double spread) {
+std::pair<int, int> nodes_of(int node, double spread) {
   const double half_band = std::min(std::numbers::sqrt3 * spread, 0.9);
-  return {rung - static_cast<int>(std::lround(kRungsPerOctave * std::log2(1.0 + half_band))),
-          rung - static_cast<int>(std::lround(kRungsPerOctave * std::log2(1.0 - half_band)))};
+  return {node - static_cast<int>(std::lround(kNodesPerOctave * std::log2(1.0 + half_band))),
+          node - static_cast<int>(std::lround(kNodesPerOctave * std::log2(1.0 - half_band)))};
 }
 
 Context quiet(const Context& context) {
@@ -78,32 +78,32 @@ StopPatterns::StopPatterns(const Iris& iris)
     : iris_(iris), mask_(mask_of(iris, grid_over(1.0, kMaskSamples), {})), open_area_(mask_.open_area_mm2()),
       atlas_(iris) {}
 
-StopPatterns::BandKey StopPatterns::key_of(const Wanted& wanted) {
-  return {rung_of(wanted.fresnel_number), static_cast<int>(std::lround(wanted.spread / kSpreadStep))};
+StopPatterns::BandKey StopPatterns::key_of(const Request& requested) {
+  return {node_of(requested.fresnel_number), static_cast<int>(std::lround(requested.spread / kSpreadStep))};
 }
 
-bool StopPatterns::make(std::span<const Wanted> wanted, const Context& context) {
+bool StopPatterns::make(std::span<const Request> requested, const Context& context) {
   std::set<BandKey> missing;
-  std::set<int> rungs;
-  for (const Wanted& w : wanted) {
+  std::set<int> nodes;
+  for (const Request& w : requested) {
     const BandKey key = key_of(w);
     if (patterns_.contains(key)) continue;
     missing.insert(key);
-    const auto [low, high] = rungs_of(key.rung, key.spread * kSpreadStep);
-    for (int rung = low; rung <= high; ++rung)
-      if (!rungs_.contains(rung)) rungs.insert(rung);
+    const auto [low, high] = nodes_of(key.node, key.spread * kSpreadStep);
+    for (int node = low; node <= high; ++node)
+      if (!nodes_.contains(node)) nodes.insert(node);
   }
-  const std::vector<int> rung_list(rungs.begin(), rungs.end());
-  std::vector<Rung> made_rungs(rung_list.size());
+  const std::vector<int> node_list(nodes.begin(), nodes.end());
+  std::vector<Node> made_nodes(node_list.size());
   Context alone = quiet(context);  // one thread a pattern
   alone.threads = 1;
-  bool done = parallel_for(rung_list.size(), quiet(context), [&](std::size_t k) {
-    FresnelPattern p = fresnel_pattern(mask_, 1.0, {fresnel_at(rung_list[k]), kPatternSide, 0.0}, alone);
+  bool done = parallel_for(node_list.size(), quiet(context), [&](std::size_t k) {
+    FresnelPattern p = fresnel_pattern(mask_, 1.0, {fresnel_at(node_list[k]), kPatternSide, 0.0}, alone);
     if (p.irradiance.empty()) return;
-    made_rungs[k] = {p.extent, std::vector<float>(p.irradiance.begin(), p.irradiance.end())};
+    made_nodes[k] = {p.extent, std::vector<float>(p.irradiance.begin(), p.irradiance.end())};
   });
   if (!done || context.cancelled()) return false;
-  for (std::size_t k = 0; k < rung_list.size(); ++k) rungs_[rung_list[k]] = std::move(made_rungs[k]);
+  for (std::size_t k = 0; k < node_list.size(); ++k) nodes_[node_list[k]] = std::move(made_nodes[k]);
 
   const std::vector<BandKey> key_list(missing.begin(), missing.end());
   std::vector<Texture> made(key_list.size());
@@ -114,20 +114,20 @@ bool StopPatterns::make(std::span<const Wanted> wanted, const Context& context) 
 }
 
 StopPatterns::Texture StopPatterns::average(const BandKey& key) const {
-  const auto [low, high] = rungs_of(key.rung, key.spread * kSpreadStep);
-  const double extent = fresnel_extent(fresnel_at(key.rung));
+  const auto [low, high] = nodes_of(key.node, key.spread * kSpreadStep);
+  const double extent = fresnel_extent(fresnel_at(key.node));
   std::vector<float> samples(static_cast<std::size_t>(kPatternSide) * kPatternSide);
-  const float share = 1.0F / static_cast<float>(high - low + 1);
-  for (int rung = low; rung <= high; ++rung) {
-    const Rung& from = rungs_.at(rung);
+  const float weight = 1.0F / static_cast<float>(high - low + 1);
+  for (int node = low; node <= high; ++node) {
+    const Node& from = nodes_.at(node);
     const auto there = resampled({kPatternSide, from.extent, from.samples}, kPatternSide, extent);
-    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] += share * there[k];
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] += weight * there[k];
   }
   return std::make_shared<const PatternTexture>(trimmed(kPatternSide, extent, std::move(samples), open_area_));
 }
 
-StopPatterns::Texture StopPatterns::pattern(const Wanted& wanted) const {
-  const auto found = patterns_.find(key_of(wanted));
+StopPatterns::Texture StopPatterns::pattern(const Request& requested) const {
+  const auto found = patterns_.find(key_of(requested));
   return found == patterns_.end() ? nullptr : found->second;
 }
 

@@ -39,7 +39,7 @@ class StopPatterns {
   static constexpr double kLowestFresnel = 0.5;
 
   // A pattern for one Fresnel number, averaged over a band of wavelengths.
-  struct Wanted {
+  struct Request {
     double fresnel_number = 1.0;  // at the band's middle; clamped to the range
     double spread = 0.0;  // RMS spread of the band's wavelengths over their mean
   };
@@ -47,8 +47,8 @@ class StopPatterns {
   explicit StopPatterns(const Iris& iris);
 
   // Makes the patterns that do not exist yet, on all threads. Returns false if cancelled.
-  bool make(std::span<const Wanted> wanted, const Context& context);
-  [[nodiscard]] Texture pattern(const Wanted& wanted) const;  // null unless made
+  bool make(std::span<const Request> requested, const Context& context);
+  [[nodiscard]] Texture pattern(const Request& requested) const;  // null unless made
   [[nodiscard]] Profile profile(double spread);
   // Returns |F^order U|^2, averaged over some orders. Null if cancelled.
   [[nodiscard]] Texture fractional(std::span<const double> orders, const Context& context);
@@ -59,24 +59,24 @@ class StopPatterns {
   [[nodiscard]] const raster::PatternAtlas& atlas() const { return atlas_; }
 
   // The number of stored patterns; fringes of edges need little memory.
-  [[nodiscard]] std::size_t count() const { return rungs_.size() + patterns_.size() + by_orders_.size(); }
+  [[nodiscard]] std::size_t count() const { return nodes_.size() + patterns_.size() + by_orders_.size(); }
 
  private:
   struct BandKey {
-    int rung = 0, spread = 0;
+    int node = 0, spread = 0;
     friend auto operator<=>(const BandKey&, const BandKey&) = default;
   };
-  [[nodiscard]] static BandKey key_of(const Wanted& wanted);
+  [[nodiscard]] static BandKey key_of(const Request& requested);
   [[nodiscard]] Texture average(const BandKey& key) const;
 
   Iris iris_;
   PupilMask mask_;
   double open_area_;  // stop radii
-  struct Rung {  // one wavelength
+  struct Node {  // one wavelength
     double extent = 0.0;
     std::vector<float> samples;
   };
-  std::map<int, Rung> rungs_;
+  std::map<int, Node> nodes_;
   std::map<BandKey, Texture> patterns_;
   std::map<int, Profile> profiles_;
   std::optional<FractionalFourier> fractional_;

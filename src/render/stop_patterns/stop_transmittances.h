@@ -20,7 +20,7 @@ namespace contrejour::inline internal {
 
 class StopTransmittances {
  public:
-  struct Wanted {
+  struct Request {
     Ghost ghost;
     double lambda_nm = 550;
     double spread_nm = 0;  // PlannedPass
@@ -31,9 +31,11 @@ class StopTransmittances {
   StopTransmittances(const LensState& lens, const FrameSettings& settings, std::shared_ptr<const DirtField> dirt,
                      RenderCache& cache);
 
-  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_tones(); }
+  [[nodiscard]] bool on() const { return options_.mode != RingingMode::None || has_half_tones(); }
   // A picture's half-tones dim all of a ghost, in or out of focus, so that every ghost needs its stop pattern.
-  [[nodiscard]] bool has_tones() const { return lens_.iris.field != nullptr && lens_.iris.field->has_tones(); }
+  [[nodiscard]] bool has_half_tones() const {
+    return lens_.iris.field != nullptr && lens_.iris.field->has_half_tones();
+  }
 
   // The Fresnel number of the stop's edge in a ghost, approximately; infinite where the edge is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
@@ -43,15 +45,15 @@ class StopTransmittances {
 
   // Makes the stop patterns of these ghosts; all wavelengths of a ghost must be in one call. Returns false if
   // cancelled.
-  bool prepare(std::span<const Wanted> wanted, const Context& context);
+  bool prepare(std::span<const Request> requested, const Context& context);
   // The same for all ghosts and passes of a plan.
   bool prepare(const FramePlan& plan, const Context& context);
 
   // Makes the fringes of dirt's shadows; the iris's stop patterns are not needed. Returns false if cancelled.
-  bool prepare_dirt(std::span<const Wanted> wanted, const Context& context);
+  bool prepare_dirt(std::span<const Request> requested, const Context& context);
 
   // About the width of the fringes of dirt's shadows in its plane, at the last crossing of the stop; 0 without ringing.
-  [[nodiscard]] double dirt_unit_mm(const Wanted& wanted) const;
+  [[nodiscard]] double dirt_fringe_unit_mm(const Request& requested) const;
 
   [[nodiscard]] StopTransmittance of(const Ghost& ghost, double lambda_nm, const LightSource& light) const {
     return {pattern_of(ghost, lambda_nm, light), dirt_of(ghost, lambda_nm, light)};
@@ -70,14 +72,14 @@ class StopTransmittances {
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   [[nodiscard]] static Key key_of(const Ghost& ghost, double lambda_nm, const LightSource& light);
-  [[nodiscard]] std::vector<stop_patterns::StopWave> waves_of(std::span<const Wanted> wanted,
+  [[nodiscard]] std::vector<stop_patterns::StopWave> waves_of(std::span<const Request> requested,
                                                               const Context& context) const;
   [[nodiscard]] bool is_sharp(double footprint, double fresnel_number) const;
   [[nodiscard]] double order(double lambda_nm) const;  // of the fractional transform
-  [[nodiscard]] std::vector<stop_patterns::PlaneWave> dirt_waves(const Wanted& wanted) const;
-  bool prepare_fresnel(std::span<const Wanted> wanted, const Context& context);
-  bool prepare_hullin(std::span<const Wanted> wanted, const Context& context);
-  void add_tones(std::span<const Wanted> wanted);
+  [[nodiscard]] std::vector<stop_patterns::PlaneWave> dirt_waves(const Request& requested) const;
+  bool prepare_fresnel(std::span<const Request> requested, const Context& context);
+  bool prepare_hullin(std::span<const Request> requested, const Context& context);
+  void add_half_tones(std::span<const Request> requested);
 
   const LensState& lens_;
   RingingOptions options_;

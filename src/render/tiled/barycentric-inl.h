@@ -36,7 +36,7 @@ struct RelativeQuad {
 };
 
 template <class T>
-HWY_INLINE RelativeQuad<T> seen_from(const Quad<T>& quad, T x, T y) {
+HWY_INLINE RelativeQuad<T> relative_to(const Quad<T>& quad, T x, T y) {
   RelativeQuad<T> s;
   for (int i = 0; i < 4; ++i) {
     s.x[i] = quad.x[i] - x;
@@ -128,7 +128,7 @@ class MeanValue {
 
   HWY_INLINE Weights<T> at(const RelativeQuad<T>& s) const {
     // In squared pixels and in pixels: replaces 0 for a point on an edge or a corner.
-    const T least(1e-30);
+    const T tiny(1e-30);
     const T corner(1e-12);
     const T all(1e30);
     T r[4], tangent[4];
@@ -140,7 +140,7 @@ class MeanValue {
       // tan(alpha / 2) = sin / (1 + cos) = (1 - cos) / sin: the form without cancellation is used.
       const auto is_acute = dot > T(0.0);
       tangent[i] =
-          select(is_acute, s.edge[i], product - dot) / larger(select(is_acute, product + dot, s.edge[i]), least);
+          select(is_acute, s.edge[i], product - dot) / larger(select(is_acute, product + dot, s.edge[i]), tiny);
     }
     Weights<T> out;
     for (int i = 0; i < 4; ++i) {

@@ -14,10 +14,10 @@ constexpr float kSmoothRatio = 1.5F;
 // pixel's middle.
 constexpr double kSliver = 1e-7;
 
-// Pixels are sampled at their middles. An evenly lit streak narrower than kNarrow_px may lie between all middles, or
+// Pixels are sampled at their middles. An uniform streak narrower than kNarrow_px may lie between all middles, or
 // have all of its light counted several times: it is widened to kWidened_px with its flux unchanged.
 constexpr double kNarrow_px = 0.25, kWidened_px = 3.0;
-constexpr double kMostWidening = 1e6;  // limits the factor where a width is mere rounding error
+constexpr double kMaxWidening = 1e6;  // limits the factor where a width is mere rounding error
 
 // The square of the diagonal of the bounds.
 double extent_squared(const Primitive& p) {
@@ -50,8 +50,8 @@ void PrimitiveBuilder::place_vertices(const RayGrid& grid, Vec2 shift_mm) {
   }
 }
 
-// Widens the ghost along each principal axis of its lit vertices along which it is too narrow for sampling at pixels'
-// middles.
+// Widens the ghost along each principal axis of its visible vertices along which it is too narrow for sampling at
+// pixels' middles.
 void PrimitiveBuilder::widen(const RayGrid& grid) {
   double count = 0.0, mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -66,13 +66,13 @@ void PrimitiveBuilder::widen(const RayGrid& grid) {
     const double x = x_[k] - mx, y = y_[k] - my;
     xx += x * x, xy += x * y, yy += y * y;
   }
-  const double half_turn = 0.5 * std::atan2(2.0 * xy, xx - yy);
-  const Vec2 along{std::cos(half_turn), std::sin(half_turn)};
+  const double axis_angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+  const Vec2 along{std::cos(axis_angle), std::sin(axis_angle)};
   const double mean = 0.5 * (xx + yy), half_difference = std::hypot(0.5 * (xx - yy), xy);
   // The variance of a uniform distribution is a twelfth of its width squared.
   const auto times = [&](double squares) {
     const double width_px = std::sqrt(12.0 * std::max(squares, 0.0) / count);
-    return width_px < kNarrow_px ? std::min(kWidened_px / std::max(width_px, 1e-12), kMostWidening) : 1.0;
+    return width_px < kNarrow_px ? std::min(kWidened_px / std::max(width_px, 1e-12), kMaxWidening) : 1.0;
   };
   const double by_along = times(mean + half_difference), by_across = times(mean - half_difference);
   if (by_along == 1.0 && by_across == 1.0) return;
@@ -99,9 +99,9 @@ bool PrimitiveBuilder::is_convex(const std::array<std::size_t, 4>& corners) cons
     const std::size_t a = corners[k];
     const std::size_t b = corners[(k + 1) % 4];
     const std::size_t c = corners[(k + 2) % 4];
-    const float turn = (x_[b] - x_[a]) * (y_[c] - y_[b]) - (x_[c] - x_[b]) * (y_[b] - y_[a]);
-    left = left && turn > 0.0F;
-    right = right && turn < 0.0F;
+    const float cross_product = (x_[b] - x_[a]) * (y_[c] - y_[b]) - (x_[c] - x_[b]) * (y_[b] - y_[a]);
+    left = left && cross_product > 0.0F;
+    right = right && cross_product < 0.0F;
   }
   return left || right;
 }
@@ -119,7 +119,7 @@ void PrimitiveBuilder::find_cells(const RayGrid& grid) {
       const auto v = grid.corners(ix, iy);
       const std::size_t cell = levels_[0].at(ix, iy);
       const auto any = [&](auto test) { return test(v[0]) || test(v[1]) || test(v[2]) || test(v[3]); };
-      const bool failed = any([&](std::size_t k) { return !std::isfinite(grid.r_rel[k]); });
+      const bool failed = any([&](std::size_t k) { return !std::isfinite(grid.relative_height[k]); });
       const float slack = grid.slack(v);
       const bool lit = any([&](std::size_t k) { return grid.blocked[k] <= slack; });
       area_[(static_cast<std::size_t>(iy) + 1) * pitch + static_cast<std::size_t>(ix) + 1] =
@@ -162,9 +162,9 @@ void PrimitiveBuilder::find_irradiance(const RayGrid& grid) {
       const float sum = (a + b) + (c + d);
       const float low = std::min(std::min(a, b), std::min(c, d));
       const float high = std::max(std::max(a, b), std::max(c, d));
-      const float least = std::min(std::abs(low), std::abs(high));
-      const float most = std::max(std::abs(low), std::abs(high));
-      const bool smooth = sum == sum && low * high > 0.0F && most < kSmoothRatio * least;
+      const float smallest = std::min(std::abs(low), std::abs(high));
+      const float largest = std::max(std::abs(low), std::abs(high));
+      const bool smooth = sum == sum && low * high > 0.0F && largest < kSmoothRatio * smallest;
       out[ix] = smooth ? 4.0F * transmission[ix] / std::abs(sum) : 0.0F;
     }
   }
@@ -198,7 +198,7 @@ bool PrimitiveBuilder::is_flat(const RayGrid& grid, int step, int ix, int iy) co
 bool PrimitiveBuilder::is_open(const RayGrid& grid, int step, int ix, int iy) const {
   const int half = 1 << (step - 1);
   for (int k = 0; k < 9; ++k)
-    if (grid.r_rel[grid.at((2 * ix + k % 3) * half, (2 * iy + k / 3) * half)] > 1.0F) return false;
+    if (grid.relative_height[grid.at((2 * ix + k % 3) * half, (2 * iy + k / 3) * half)] > 1.0F) return false;
   return true;
 }
 
@@ -237,7 +237,7 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
     const std::size_t v = corners[k];
     p.x[k] = x_[v];
     p.y[k] = y_[v];
-    p.r_rel[k] = grid.r_rel[v];
+    p.relative_height[k] = grid.relative_height[v];
     p.stop_x[k] = p.crossings > 0 ? grid.stop_x[0][v] : 0.0F;
     p.stop_y[k] = p.crossings > 0 ? grid.stop_y[0][v] : 0.0F;
     open = open && grid.blocked[v] <= -slack;
@@ -245,16 +245,16 @@ void PrimitiveBuilder::fill(const RayGrid& grid, std::array<std::size_t, 4> corn
   if (open) p.flags |= kOpen;
   p.more_crossings = static_cast<std::uint32_t>(out_->more_crossings.size());
   for (std::size_t c = 1; c < p.crossings; ++c) {
-    StopPlaces places{};
+    StopPoints points{};
     for (std::size_t k = 0; k < 4; ++k) {
-      places.x[k] = grid.stop_x[c][corners[k]];
-      places.y[k] = grid.stop_y[c][corners[k]];
+      points.x[k] = grid.stop_x[c][corners[k]];
+      points.y[k] = grid.stop_y[c][corners[k]];
     }
-    out_->more_crossings.push_back(places);
+    out_->more_crossings.push_back(points);
   }
   if (traced_.front_dirt == nullptr) return;
   p.flags |= kFront;
-  StopPlaces front{};
+  StopPoints front{};
   for (std::size_t k = 0; k < 4; ++k) {
     const auto side = static_cast<std::size_t>(grid.side());
     const Vec2 step = grid.step_mm();
@@ -294,7 +294,7 @@ void PrimitiveBuilder::emit_quad(const RayGrid& grid, std::array<std::size_t, 4>
 
 void PrimitiveBuilder::emit_triangle(const RayGrid& grid, std::array<std::size_t, 3> corners) {
   for (const std::size_t k : corners) {
-    if (!std::isfinite(grid.r_rel[k])) return;
+    if (!std::isfinite(grid.relative_height[k])) return;
   }
   const auto& t = grid.transmission;
   const double flux = triangle_weight_mm2_ * (t[corners[0]] + t[corners[1]] + t[corners[2]]) / 3.0;

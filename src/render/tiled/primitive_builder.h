@@ -18,7 +18,7 @@ struct TracedPass {
   double shared_flux = 1;  // LightSource's
   std::uint32_t pass = 0;
   Vec2 shift_mm = {};      // of the ghost, on the sensor
-  const DirtSite* front_dirt = nullptr;  // not null: places on the front are kept, since there is dirt
+  const DirtSite* front_dirt = nullptr;  // not null: points on the front are kept, since there is dirt
   LightSource light = {};
   double entrance_z_mm = 0.0;  // of the grid
 };

@@ -9,7 +9,7 @@ namespace contrejour::inline internal::tiled {
 namespace {
 
 constexpr std::size_t kPrimitivesPerChunk = 8192;
-constexpr std::size_t kMostCounters = 1U << 22U;  // 16 MiB
+constexpr std::size_t kMaxCounters = 1U << 22U;  // 16 MiB
 
 template <class Visit>
 void for_each_tile(const PixelRange& tiles, int columns, Visit visit) {
@@ -29,9 +29,9 @@ PixelRange overlap(const PixelRange& a, const PixelRange& b) {
 // chunks' lists in order.
 bool list_by_tile(std::span<const Primitive> primitives, const TileGrid& grid, const Context& context, TileLists& out) {
   const std::size_t tiles = grid.count();
-  const std::size_t most_chunks = std::max<std::size_t>(1, kMostCounters / std::max<std::size_t>(1, tiles));
+  const std::size_t max_chunks = std::max<std::size_t>(1, kMaxCounters / std::max<std::size_t>(1, tiles));
   const std::size_t chunks =
-      std::clamp<std::size_t>((primitives.size() + kPrimitivesPerChunk - 1) / kPrimitivesPerChunk, 1, most_chunks);
+      std::clamp<std::size_t>((primitives.size() + kPrimitivesPerChunk - 1) / kPrimitivesPerChunk, 1, max_chunks);
   const auto chunk_begin = [&](std::size_t c) { return primitives.size() * c / chunks; };
   std::vector<std::uint32_t> counters(chunks * tiles);
 

@@ -45,7 +45,7 @@ HWY_INLINE Mask passes_picture(const IrisShape& iris, P x, P y) {
   return hn::Le(hn::Load(d, distance.data()), hn::Zero(d));
 }
 
-// Whether places lie inside the iris's opening. Coordinates are too large by the factor `total`.
+// Whether points lie inside the iris's opening. Coordinates are too large by the factor `total`.
 HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
   if (iris.is_circle()) return hn::Le((x * x + y * y).v, (total * total).v);
   if (iris.is_picture()) return passes_picture(iris, x / total, y / total);
@@ -70,28 +70,28 @@ HWY_INLINE Mask passes(const IrisShape& iris, P x, P y, P total) {
 // Which pixels no rim and no crossing of the iris blocks.
 CONTREJOUR_INLINE_IF_FAST Mask unblocked(const TraversalInput& input, const Primitive& p,
                                          const hk::Weights<P>& weights) {
-  Mask open = hn::Le(interpolate(weights, p.r_rel).v, weights.total.v);
+  Mask open = hn::Le(interpolate(weights, p.relative_height).v, weights.total.v);
   if (p.crossings == 0) return open;
   open =
       hn::And(open, passes(input.iris, interpolate(weights, p.stop_x), interpolate(weights, p.stop_y), weights.total));
   for (std::uint32_t c = 0; c + 1 < p.crossings; ++c) {
-    const StopPlaces& places = input.buffer.more_crossings[p.more_crossings + c];
+    const StopPoints& points = input.buffer.more_crossings[p.more_crossings + c];
     open = hn::And(open,
-                   passes(input.iris, interpolate(weights, places.x), interpolate(weights, places.y), weights.total));
+                   passes(input.iris, interpolate(weights, points.x), interpolate(weights, points.y), weights.total));
   }
   return open;
 }
 
-HWY_INLINE StopPlaces places_of(const TraversalInput& input, const Primitive& p, std::size_t crossing) {
-  return crossing == 0 ? StopPlaces{p.stop_x, p.stop_y} : input.buffer.more_crossings[p.more_crossings + crossing - 1];
+HWY_INLINE StopPoints points_of(const TraversalInput& input, const Primitive& p, std::size_t crossing) {
+  return crossing == 0 ? StopPoints{p.stop_x, p.stop_y} : input.buffer.more_crossings[p.more_crossings + crossing - 1];
 }
 
 // A pixel's width in the units of a crossing, from the ratio of areas.
-HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPlaces& places) {
+HWY_INLINE double pixel_at_stop(const Primitive& p, const StopPoints& points) {
   const auto area = [](const std::array<float, 4>& x, const std::array<float, 4>& y) {
     return 0.5 * std::abs(cross(Vec2{x[2], y[2]} - Vec2{x[0], y[0]}, Vec2{x[3], y[3]} - Vec2{x[1], y[1]}));
   };
-  return std::sqrt(area(places.x, places.y) / std::max(area(p.x, p.y), 1.0));
+  return std::sqrt(area(points.x, points.y) / std::max(area(p.x, p.y), 1.0));
 }
 
 // Multiplies each pixel's value by what the stop pattern and dirt transmit where its light crosses the stop and, if
@@ -103,15 +103,15 @@ CONTREJOUR_INLINE_IF_FAST P behind_stop(const TraversalInput& input, const Primi
   HWY_ALIGN std::array<float, kLanes> wanted, out;
   HWY_ALIGN std::array<std::array<float, kLanes>, kPlanes> x, y;
   std::array<StopPoint, kPlanes> points;
-  const auto look_up = [&](std::size_t plane, const StopPlaces& corners, double unit) {
+  const auto look_up = [&](std::size_t plane, const StopPoints& corners, double unit) {
     hn::Store((interpolate(weights, corners.x) / weights.total).v, d, x[plane].data());
     hn::Store((interpolate(weights, corners.y) / weights.total).v, d, y[plane].data());
     points[plane].width = pixel_at_stop(p, corners) * unit;
   };
   const bool on_front = stop.has_front();
   const double outer = stop.outer_radius();
-  for (std::size_t c = 0; c < p.crossings; ++c) look_up(c, places_of(input, p, c), outer);
-  if (on_front) look_up(p.crossings, input.buffer.more_crossings[p.more_crossings + p.more_places() - 1], 1.0);
+  for (std::size_t c = 0; c < p.crossings; ++c) look_up(c, points_of(input, p, c), outer);
+  if (on_front) look_up(p.crossings, input.buffer.more_crossings[p.more_crossings + p.more_points() - 1], 1.0);
   const double to_mm = stop.dirt && !on_front ? stop.dirt->site().stop_radius_mm : 1.0;
   hn::Store(hn::IfThenElseZero(inside, hn::Set(d, 1.0F)), d, wanted.data());
   hn::Store(value.v, d, out.data());
@@ -132,7 +132,7 @@ CONTREJOUR_INLINE_IF_FAST P behind_stop(const TraversalInput& input, const Primi
 
 // An edge includes the points on it if it runs upwards, or horizontally to the left, so that a shared edge belongs to
 // exactly one of two neighbours.
-HWY_INLINE float least_on_edge(const Primitive& p, std::size_t i) {
+HWY_INLINE float min_on_edge(const Primitive& p, std::size_t i) {
   const std::size_t j = (i + 1) % 4;
   const bool holds = p.y[j] < p.y[i] || (p.y[j] == p.y[i] && p.x[j] <= p.x[i]);
   return holds ? 0.0F : std::numeric_limits<float>::min();
@@ -153,8 +153,8 @@ CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const 
     quad.x[i] = broadcast(p.x[i]);
     quad.y[i] = broadcast(p.y[i]);
   }
-  const P least[4] = {broadcast(least_on_edge(p, 0)), broadcast(least_on_edge(p, 1)), broadcast(least_on_edge(p, 2)),
-                      broadcast(least_on_edge(p, 3))};
+  const P smallest[4] = {broadcast(min_on_edge(p, 0)), broadcast(min_on_edge(p, 1)), broadcast(min_on_edge(p, 2)),
+                         broadcast(min_on_edge(p, 3))};
   const P left = broadcast(static_cast<float>(p.pixels.x0));
   const P right = broadcast(static_cast<float>(p.pixels.x1) + 1.0F);
   const Method<P> method(quad);
@@ -163,16 +163,16 @@ CONTREJOUR_INLINE_IF_FAST void add_primitive(const TraversalInput& input, const 
   for (std::size_t k = begin; k < end; k += lanes) {
     const P x(hn::LoadU(d, tile.x.data() + k));
     const P y(hn::LoadU(d, tile.y.data() + k));
-    const auto seen = hk::seen_from(quad, x, y);
+    const auto relative = hk::relative_to(quad, x, y);
     Mask inside = hn::And(hn::FirstN(d, end - k), hn::And(hn::Gt(x.v, left.v), hn::Lt(x.v, right.v)));
-    for (int i = 0; i < 4; ++i) inside = hn::And(inside, hn::Ge(seen.edge[i].v, least[i].v));
+    for (int i = 0; i < 4; ++i) inside = hn::And(inside, hn::Ge(relative.edge[i].v, smallest[i].v));
     if (hn::AllFalse(d, inside)) continue;
 
-    const hk::Weights<P> weights = method.at(seen);
+    const hk::Weights<P> weights = method.at(relative);
     inside = hn::And(inside, hn::Gt(weights.total.v, hn::Zero(d)));
     P value = interpolate(weights, p.irradiance) / weights.total;
     if (stop != nullptr && stop->pattern) {
-      inside = hn::And(inside, hn::Le(interpolate(weights, p.r_rel).v, weights.total.v));
+      inside = hn::And(inside, hn::Le(interpolate(weights, p.relative_height).v, weights.total.v));
     } else if ((p.flags & kOpen) == 0) {
       inside = hn::And(inside, unblocked(input, p, weights));
     }

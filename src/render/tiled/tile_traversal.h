@@ -42,7 +42,7 @@ class TilePixels {
 };
 
 // Each pixel adds, for every primitive of the list that contains its middle, in order, the irradiance there times the
-// gain, unless the interpolated r_rel or stop places show that the light is blocked.
+// gain, unless the interpolated relative_height or stop points show that the light is blocked.
 void traverse_tile(const TraversalInput& input, std::span<const std::uint32_t> list, TilePixels& tile);
 
 }  // namespace contrejour::inline internal::tiled

@@ -11,9 +11,9 @@
 #include "base/clock.h"
 #include "base/tasks.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/planning/adaptive_passes.h"
 #include "render/planning/frame_plan.h"
 #include "render/planning/grid_side.h"
-#include "render/planning/passes_by_need.h"
 #include "render/pupils/pupil_search.h"
 #include "render/stop_patterns/stop_transmittances.h"
 #include "render/tiled/primitive_builder.h"
@@ -22,17 +22,17 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr int kMostMergeSteps = 9;  // merges a grid of 512 into one primitive
+constexpr int kMaxMergeSteps = 9;  // merges a grid of 512 into one primitive
 constexpr int kLargestTile = 4096;
 // bodonyi2023 eq. 13 uses at least this fraction of the grid's rays.
-constexpr double kFewestShare = 0.05;
+constexpr double kMinFraction = 0.05;
 constexpr double kTracingProgress = 0.7;  // fraction of the whole progress
 
 Result<void> check(const TiledOptions& o) {
   const auto refuse = [](std::string message) { return failure(ErrorCode::InvalidArgument, std::move(message)); };
   if (auto ok = check_grid(o.grid); !ok) return ok;
-  if (o.merge_steps < 0 || o.merge_steps > kMostMergeSteps) {
-    return refuse(fmt::format("{} merge steps is out of range; choose 0 to {}", o.merge_steps, kMostMergeSteps));
+  if (o.merge_steps < 0 || o.merge_steps > kMaxMergeSteps) {
+    return refuse(fmt::format("{} merge steps is out of range; choose 0 to {}", o.merge_steps, kMaxMergeSteps));
   }
   if (!(o.merge_threshold >= 0.0) || !std::isfinite(o.merge_threshold)) {
     return refuse("the merge threshold must be a number of 0 or more");
@@ -122,14 +122,14 @@ struct Job {
 void list_items(const FramePlan& plan, const StopTransmittances& stops, Job& job) {
   const bool any = stops.on() || plan.dirt;
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
-    const GhostLook& look = plan.looks[g];
+    const AppliedAdjustment& adjustment = plan.adjustments[g];
     const PlannedLight& light = plan.lights[k];
     for (const PlannedPass& pass : passes) {
       const StopTransmittance stop = stops.of(plan.ghosts[g], pass.lambda_nm, light.source);
       if (any) job.stops.push_back(stop);
-      Rgb gain = look.tinted(pass.gain);
+      Rgb gain = adjustment.tinted(pass.gain);
       for (double& value : gain) value *= stop.level();
-      job.items.push_back({plan.ghosts[g], look.shift_mm, light.source, pass.lambda_nm});
+      job.items.push_back({plan.ghosts[g], adjustment.shift_mm, light.source, pass.lambda_nm});
       job.gains.push_back({static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])});
     }
   });
@@ -157,8 +157,8 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   count_rays(pupil.rays);
 
   start = Clock::now();
-  const int fewest = std::max(2, static_cast<int>(std::lround(job.options.grid.rays * kFewestShare)));
-  const int side = grid_side(job.options.grid, job.lens, pupil.sensor_mm, fewest);
+  const int min_count = std::max(2, static_cast<int>(std::lround(job.options.grid.rays * kMinFraction)));
+  const int side = grid_side(job.options.grid, job.lens, pupil.sensor_mm, min_count);
   const auto precision =
       precision_for(path, tables, item.light, window.z_mm, pupil.box(), side, job.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, iris, item.light, window.z_mm, pupil.box(), side, precision);
@@ -200,9 +200,9 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   if (const auto ok = check(options); !ok) return tl::unexpected<Error>(ok.error());
   const LensState& lens = planned.lens;
   const Frame& pixels = planned.settings.frame;
-  const auto by_need = with_passes_by_need(planned.plan, lens, pixels, context);
-  if (!by_need) return interrupted();
-  const FramePlan& plan = *by_need;
+  const auto with_passes = with_adaptive_passes(planned.plan, lens, pixels, context);
+  if (!with_passes) return interrupted();
+  const FramePlan& plan = *with_passes;
   StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
   if (!stops.prepare(plan, context)) return interrupted();
   Job job{lens, pixels, options, context, plan.tables, IrisShape(lens.iris), {}, {}};
@@ -227,8 +227,8 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   stats.ghosts_skipped_flux = plan.skipped_flux;
   // Search and tracing run in parallel on all threads: each is given its fraction of the elapsed time.
   const double busy_ms = counts.search_ms + counts.trace_ms;
-  const double share = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
-  stats.time_ms = {{"search", counts.search_ms * share}, {"trace", counts.trace_ms * share}};
+  const double scale = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
+  stats.time_ms = {{"search", counts.search_ms * scale}, {"trace", counts.trace_ms * scale}};
   frame.report(stats);
   flare.image = frame.take_image();
   stats.time_ms.emplace_back("total", ms_since(start));

@@ -13,7 +13,7 @@ void check_refused(std::string_view text, int line, std::string_view words) {
   CAPTURE(text);
   REQUIRE_FALSE(read.has_value());
   CAPTURE(read.error().to_string());
-  CHECK(read.error().place.line == line);
+  CHECK(read.error().position.line == line);
   CHECK(read.error().message.find(words) != std::string::npos);
 }
 

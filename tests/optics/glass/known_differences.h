@@ -11,7 +11,7 @@ namespace contrejour::test {
 struct KnownDifference {
   const char* maker;
   const char* name;
-  double most;  // as printed, to two digits
+  double max;  // as printed, to two digits
 };
 
 // clang-format off

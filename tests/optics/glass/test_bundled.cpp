@@ -42,7 +42,7 @@ double largest_difference(const Glass& a, const Glass& b) {
 
 double known_difference(const std::string& maker, const std::string& name) {
   for (const KnownDifference& known : kKnownDifferences)
-    if (maker == known.maker && name == known.name) return known.most;
+    if (maker == known.maker && name == known.name) return known.max;
   return 0.0;
 }
 

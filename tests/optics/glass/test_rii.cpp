@@ -96,8 +96,8 @@ void check_refused(const std::string& text, const std::string& words, int line =
   CAPTURE(file.error().message);
   CHECK(file.error().message.find(words) != std::string::npos);
   CHECK(file.error().message.size() < 1000);
-  CHECK(file.error().place.file == "x.yml");
-  if (line != 0) CHECK(file.error().place.line == line);
+  CHECK(file.error().position.file == "x.yml");
+  if (line != 0) CHECK(file.error().position.line == line);
 }
 
 std::string formula(const std::string& type, const std::string& coefficients, const std::string& range = "0.4 0.7") {

@@ -100,7 +100,7 @@ std::optional<LensState> state_of(const json& sample, const json& resolution) {
     lens.surfaces.push_back(
         {SurfaceKind::Refracting, radius == 0.0 ? 0.0 : 1.0 / radius, thickness, 1.0, {"", ConstantIndex{n}}, {}, 0});
   }
-  return test::place(lens);
+  return test::configured(lens);
 }
 
 double listed_image_distance(const json& sample, const json& resolution) {
@@ -158,7 +158,7 @@ TEST_CASE("a ball lens focuses at n R / (2 (n - 1)) from its centre") {
   ball.surfaces = {{SurfaceKind::Stop, 0.0, 0.0, 4.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 1.0 / radius, 2 * radius, 4.0, {"", ConstantIndex{n}}, {}, 0},
                    {SurfaceKind::Refracting, -1.0 / radius, 0.0, 4.0, air(), {}, 0}};
-  const LensState state = test::place(ball);
+  const LensState state = test::configured(ball);
   CHECK(state.focal_length_mm == doctest::Approx(n * radius / (2 * (n - 1))).epsilon(1e-12));
   CHECK(state.sensor_z_mm == doctest::Approx(radius + n * radius / (2 * (n - 1))).epsilon(1e-12));
 }

@@ -47,7 +47,7 @@ TEST_CASE("a mechanism keeps the f-number's area, whatever its blades") {
       CHECK(open_mm2(blades) / open_mm2(round) == doctest::Approx(1.0).epsilon(1e-9));
       CHECK(blades.f_number == f_number);
       CHECK(blades.stop_radius_mm >= round.stop_radius_mm * (1.0 - 1e-9));
-      CHECK(IrisOpening(blades.iris).reach() == doctest::Approx(1.0).epsilon(1e-9));
+      CHECK(IrisOpening(blades.iris).outer_radius() == doctest::Approx(1.0).epsilon(1e-9));
     }
   }
 }

@@ -123,13 +123,13 @@ TEST_CASE("what has no image says which objects have one") {
   const auto far = configure_lens(relay);
   REQUIRE_FALSE(far.has_value());
   const std::string text = far.error().message;
-  double least_mm = 0.0, most_mm = 0.0;
+  double min_mm = 0.0, max_mm = 0.0;
   const std::size_t from = text.find("only objects from ");
   REQUIRE(from != std::string::npos);
-  REQUIRE(std::sscanf(text.c_str() + from, "only objects from %lf to %lf mm", &least_mm, &most_mm) == 2);
-  CHECK(configure_lens(relay, {.object_distance_mm = least_mm + 0.1 * (most_mm - least_mm)}).has_value());
-  CHECK(configure_lens(relay, {.object_distance_mm = most_mm - 1.0}).has_value());
-  CHECK_FALSE(configure_lens(relay, {.object_distance_mm = most_mm + 1.0}).has_value());
+  REQUIRE(std::sscanf(text.c_str() + from, "only objects from %lf to %lf mm", &min_mm, &max_mm) == 2);
+  CHECK(configure_lens(relay, {.object_distance_mm = min_mm + 0.1 * (max_mm - min_mm)}).has_value());
+  CHECK(configure_lens(relay, {.object_distance_mm = max_mm - 1.0}).has_value());
+  CHECK_FALSE(configure_lens(relay, {.object_distance_mm = max_mm + 1.0}).has_value());
 }
 
 TEST_CASE("a coating setting replaces glass-to-air coatings only") {

@@ -28,7 +28,7 @@ inline void check_refused_by(ReadText read, const std::string& text, int line, c
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
   CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line == line);
+  CHECK(lens.error().position.line == line);
 }
 
 inline void check_warns(const Prescription& lens, const std::string& words) {

@@ -23,7 +23,7 @@ inline void check_same_shape(const Surface& s, const Surface& t) {
   CHECK(s.shape.conic_x == t.shape.conic_x);
   CHECK(std::abs(s.shape.curvature_x_per_mm - t.shape.curvature_x_per_mm) <=
         2e-16 * std::abs(s.shape.curvature_x_per_mm));
-  CHECK(std::abs(s.shape.turn_rad - t.shape.turn_rad) < 1e-12);
+  CHECK(std::abs(s.shape.rotation_rad - t.shape.rotation_rad) < 1e-12);
   for (std::size_t p = 0; p < std::max(s.shape.powers.size(), t.shape.powers.size()); ++p) {
     CAPTURE(p);
     CHECK((p < s.shape.powers.size() ? s.shape.powers[p] : 0.0) ==
@@ -40,13 +40,13 @@ inline void check_same_rim(const Surface& s, const Surface& t) {
   }
   CHECK(s.aperture.half_mm == t.aperture.half_mm);
   CHECK(length(s.aperture.centre_mm - t.aperture.centre_mm) < 1e-12);
-  CHECK(std::abs(s.aperture.turn_rad - t.aperture.turn_rad) < 1e-12);
+  CHECK(std::abs(s.aperture.rotation_rad - t.aperture.rotation_rad) < 1e-12);
 }
 
 inline void check_same_obscuration(const Obscuration& a, const Obscuration& b) {
   CHECK(a.half_mm == b.half_mm);
   CHECK(length(a.centre_mm - b.centre_mm) < 1e-12);
-  CHECK(std::abs(a.turn_rad - b.turn_rad) < 1e-12);
+  CHECK(std::abs(a.rotation_rad - b.rotation_rad) < 1e-12);
 }
 
 // All numbers must be equal to the last bit, except angles (1e-12) and indices.

@@ -173,7 +173,7 @@ TEST_CASE("cylinders and toroids of CODE V") {
   const Surface other = shape("XTO; CUX 0.02; K -1");
   CHECK(other.curvature_per_mm == 0.02);
   CHECK(other.shape.curvature_x_per_mm == 1.0 / 200.0);
-  CHECK(other.shape.turn_rad == doctest::Approx(0.5 * std::numbers::pi));
+  CHECK(other.shape.rotation_rad == doctest::Approx(0.5 * std::numbers::pi));
   const Surface biconic = shape("AAS; CUX 0.02; KX -2; KY -1");
   CHECK(biconic.shape.kind == ShapeKind::Biconic);
   CHECK(biconic.shape.conic_x == -2.0);

@@ -91,7 +91,7 @@ TEST_CASE("a rim that fits is left alone") {
   CHECK(whole->warnings.empty());
 }
 
-TEST_CASE("an f-number that is not told is the stop's") {
+TEST_CASE("an f-number that is not given is the stop's") {
   const auto whole = completed(singlet(19.0, 5.0));
   REQUIRE(whole);
   const auto state = configure_lens(*whole);
@@ -102,7 +102,7 @@ TEST_CASE("an f-number that is not told is the stop's") {
   CHECK(whole->f_number == doctest::Approx(100.0 / (10.0 * 100.0 / 93.0)).epsilon(0.02));
 }
 
-TEST_CASE("semi-diameters that are not told are those of the beam") {
+TEST_CASE("semi-diameters that are not given are those of the beam") {
   auto lens = singlet(0.0, 0.0);
   lens.surfaces[0].semi_diameter_mm = 15.0;  // given: unchanged
   const double field_rad = 0.05, pupil_mm = 10.0;
@@ -120,12 +120,12 @@ TEST_CASE("semi-diameters that are not told are those of the beam") {
   CHECK(state->stop_radius_mm == doctest::Approx(5.0 * 0.93).epsilon(0.02));
 }
 
-TEST_CASE("semi-diameters that are not told, and no beam, are an error with the place") {
+TEST_CASE("semi-diameters that are not given, and no beam, are an error with the position") {
   auto lens = singlet(19.0, 0.0);
   lens.surfaces[2].source_line = 9;
   const auto whole = completed(lens);
   REQUIRE_FALSE(whole);
-  CHECK(whole.error().place.line == 9);
+  CHECK(whole.error().position.line == 9);
 }
 
 TEST_CASE("a lens without a stop, without surfaces, without power") {

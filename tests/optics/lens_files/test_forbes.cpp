@@ -51,20 +51,20 @@ TEST_CASE("the first Q polynomials are those that Forbes prints") {
 }
 
 TEST_CASE("slopes of Qbfs are orthogonal with their weight, sags of Qcon with theirs") {
-  constexpr int kPlaces = 20000;
+  constexpr int kSamples = 20000;
   for (std::size_t m = 0; m < 9; ++m) {
     for (std::size_t n = 0; n <= m; ++n) {
       double slopes = 0.0, sags = 0.0;
-      for (int k = 0; k < kPlaces; ++k) {
-        const double angle = 0.5 * std::acos(-1.0) * (k + 0.5) / kPlaces, u = std::sin(angle), h = 1e-5;
+      for (int k = 0; k < kSamples; ++k) {
+        const double angle = 0.5 * std::acos(-1.0) * (k + 0.5) / kSamples, u = std::sin(angle), h = 1e-5;
         // Weight 1 / (u sqrt(1 - u^2)) du of the slopes is d(angle) / u; <...> is its mean with 2 / pi.
         const auto slope = [&](std::size_t of) {
           const auto s = [&](double at) { return at * at * (1.0 - at * at) * term(ForbesKind::Bfs, of, at * at); };
           return (s(u + h) - s(u - h)) / (2.0 * h);
         };
-        slopes += slope(m) * slope(n) / kPlaces;
-        const double x = (k + 0.5) / kPlaces;
-        sags += std::pow(x, 4.0) * term(ForbesKind::Con, m, x) * term(ForbesKind::Con, n, x) / kPlaces;
+        slopes += slope(m) * slope(n) / kSamples;
+        const double x = (k + 0.5) / kSamples;
+        sags += std::pow(x, 4.0) * term(ForbesKind::Con, m, x) * term(ForbesKind::Con, n, x) / kSamples;
       }
       CAPTURE(m);
       CAPTURE(n);

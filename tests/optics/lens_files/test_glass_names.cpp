@@ -100,7 +100,7 @@ void check_refused(const std::string& glass, const std::string& words, const std
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
   CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line > 0);
+  CHECK(lens.error().position.line > 0);
 }
 
 TEST_CASE("what is refused, with what to do") {

@@ -39,7 +39,7 @@ void check_refused(const std::string& text, const std::string& key, int line, co
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
   CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line == line);
+  CHECK(lens.error().position.line == line);
 }
 
 std::string edited(std::string_view from, std::string_view to) { return replaced(kSample, from, to); }

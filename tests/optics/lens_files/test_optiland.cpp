@@ -91,9 +91,9 @@ TEST_CASE("an Optiland file in every detail") {
 }
 
 TEST_CASE("Optiland's tilted and decentred surfaces, apertures of other kinds") {
-  const std::string place = R"("cs": {"x": 0.0, "y": 0.0, "z": 4.0, "rx": 0.0)";
+  const std::string position = R"("cs": {"x": 0.0, "y": 0.0, "z": 4.0, "rx": 0.0)";
   const Prescription lens =
-      read_or_fail(read_json_lens, edited(place, R"("cs": {"x": 0.5, "y": -0.25, "z": 4.0, "rx": 0.1)"));
+      read_or_fail(read_json_lens, edited(position, R"("cs": {"x": 0.5, "y": -0.25, "z": 4.0, "rx": 0.1)"));
   CHECK(lens.surfaces[1].pose.shift_mm == Vec3{0.5, -0.25, 0.0});
   CHECK(lens.surfaces[1].pose.axis.y == doctest::Approx(-std::sin(0.1)));
   CHECK(lens.surfaces[1].pose.axis.z == doctest::Approx(std::cos(0.1)));

@@ -30,7 +30,7 @@ void check_refused(const std::string& text, int line, const std::string& words) 
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
   CHECK(lens.error().message.find(words) != std::string::npos);
-  CHECK(lens.error().place.line == line);
+  CHECK(lens.error().position.line == line);
 }
 
 }  // namespace

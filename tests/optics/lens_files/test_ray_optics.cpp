@@ -91,23 +91,23 @@ TEST_CASE("a ray-optics file in every detail") {
   CHECK(s[4].pose == SurfacePose{});
   CHECK(s[4].curvature_per_mm == -0.002);
   CHECK(s[4].shape.curvature_x_per_mm == -0.001);
-  CHECK(s[4].shape.turn_rad == doctest::Approx(1.5707963));
+  CHECK(s[4].shape.rotation_rad == doctest::Approx(1.5707963));
   check_round_trip(lens);
 }
 
 TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turned, and the first that is one") {
   const std::string obscuration = object("Circular", R"("radius": 2.0, "is_obscuration": true)") + ", ";
-  const std::string turned =
+  const std::string rotated =
       object("Elliptical", R"("x_half_width": 9.0, "y_half_width": 6.0, "rotation": 30, "is_obscuration": false)");
   const Prescription lens =
-      read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), obscuration + turned));
+      read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), obscuration + rotated));
   CHECK(lens.surfaces[0].aperture.kind == ApertureKind::Ellipse);
   CHECK(lens.surfaces[0].aperture.half_mm == Vec2{9.0, 6.0});
-  CHECK(lens.surfaces[0].aperture.turn_rad == doctest::Approx(0.5235987756));
+  CHECK(lens.surfaces[0].aperture.rotation_rad == doctest::Approx(0.5235987756));
   CHECK(lens.surfaces[0].obscuration == Obscuration{{2, 2}, {}, 0.0});
   const std::string square =
       object("Rectangular", R"("x_half_width": 1.0, "y_half_width": 1.0, "is_obscuration": true)") + ", ";
-  check_warns(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), square + turned)),
+  check_warns(read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), square + rotated)),
               "a rectangular obscuration (line 4) is not computed");
   // An obscuration alone does not change the surface's size.
   const std::string alone = object("Circular", R"("radius": 2.0, "is_obscuration": true)");

@@ -39,7 +39,7 @@ void check_refused(const fs::path& file, const std::string& words) {
   const auto lens = read_lens(file);
   REQUIRE_FALSE(lens.has_value());
   CAPTURE(lens.error().to_string());
-  CHECK(lens.error().place.file == file.string());
+  CHECK(lens.error().position.file == file.string());
   CHECK(lens.error().message.find(words) != std::string::npos);
 }
 

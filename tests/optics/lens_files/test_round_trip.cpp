@@ -123,7 +123,7 @@ class RandomLens {
     if (s.kind == ShapeKind::Revolution) return s;
     if (!one_in(3)) s.curvature_x_per_mm = one_in(2) ? real(-0.1, 0.1) : 1.0 / real(10.0, 1000.0);
     if (s.kind == ShapeKind::Biconic && one_in(2)) s.conic_x = real(-3.0, 1.0);
-    if (one_in(2)) s.turn_rad = one_in(2) ? real(-3.0, 3.0) : 30.0 * 3.14159265358979323846 / 180.0;
+    if (one_in(2)) s.rotation_rad = one_in(2) ? real(-3.0, 3.0) : 30.0 * 3.14159265358979323846 / 180.0;
     return s;
   }
 
@@ -192,10 +192,10 @@ TEST_CASE("every bundled lens too") {
 // The numbers in a text, including TOML's inf: first character and length.
 std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& text) {
   static const std::regex kNumber("-?[0-9][0-9.]*(e-?[0-9]+)?|inf");
-  std::vector<std::pair<std::size_t, std::size_t>> places;
+  std::vector<std::pair<std::size_t, std::size_t>> positions;
   for (std::sregex_iterator at(text.begin(), text.end(), kNumber), end; at != end; ++at)
-    places.emplace_back(at->position(), at->length());
-  return places;
+    positions.emplace_back(at->position(), at->length());
+  return positions;
 }
 
 TEST_CASE("whatever stands for a number in a lens file, what is read is written as the same") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes and places of surfaces in the lens format.
+// Shapes and positions of surfaces in the lens format.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -30,11 +30,11 @@ void check_refused(const std::string& row, int line, const std::string& why, con
   const auto lens = read_lens_toml(lens_with(row, more), "x.toml");
   CAPTURE(row + more);
   REQUIRE_FALSE(lens.has_value());
-  CHECK(lens.error().place.line == line);
+  CHECK(lens.error().position.line == line);
   CHECK_MESSAGE(lens.error().message.find(why) != std::string::npos, lens.error().message);
 }
 
-TEST_CASE("a row's conic, asphere, toroid, biconic and place") {
+TEST_CASE("a row's conic, asphere, toroid, biconic and pose") {
   CHECK(read("").shape == SurfaceShape{});
   CHECK(read(", conic = -1.5").shape == SurfaceShape{.conic = -1.5});
   CHECK(read(", asphere = { 4 = 1e-5, 2 = 3e-4, 10 = 1e-14 }").shape.powers ==
@@ -45,7 +45,7 @@ TEST_CASE("a row's conic, asphere, toroid, biconic and place") {
                      .conic = 1,
                      .curvature_x_per_mm = 1.0 / 40,
                      .conic_x = -2,
-                     .turn_rad = std::acos(0.0)});
+                     .rotation_rad = std::acos(0.0)});
   const SurfacePose pose = read(", decentre_mm = [0.1, -0.2], tilt_deg = [2, 3]").pose;
   CHECK(pose.shift_mm == Vec3{0.1, -0.2, 0.0});
   const double a = 2 * std::acos(-1.0) / 180, b = 3 * std::acos(-1.0) / 180;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each error by its exact place and words: file:line: what is wrong and what to do.
+// Each error by its exact position and words: file:line: what is wrong and what to do.
 #include "optics/lens_files/sample_lens.h"
 
 #include <cmath>

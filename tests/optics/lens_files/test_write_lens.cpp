@@ -125,7 +125,7 @@ TEST_CASE("what the formats cannot hold is said") {
     const auto written = format.write(toml(text));
     REQUIRE_FALSE(written.has_value());
     CHECK(written.error().message.find(words) != std::string::npos);
-    CHECK(written.error().place.line == 9);
+    CHECK(written.error().position.line == 9);
   };
   refused(kFormats[0], row_as(", asphere = { 3 = 1e-7 }, toroid = { radius_x_mm = 71.7 }"),
           "surface 4: a toroid's polynomial");

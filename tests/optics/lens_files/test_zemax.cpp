@@ -306,7 +306,7 @@ TEST_CASE("a turn about the axis turns a cylinder") {
           "SURF 6\n  TYPE COORDBRK\n  PARM 5 30\n  DISZ 0\nSURF 7\n  TYPE TOROIDAL\n  CURV 0.005");
   const Prescription lens = must_read(zmx("SURF 8\n  CURV 0\n  DISZ 0", "SURF 9\n  CURV 0\n  DISZ 0",
                                           zmx("SURF 7\n  CURV 0\n  DISZ 75", "SURF 8\n  CURV 0\n  DISZ 75", text)));
-  CHECK(lens.surfaces[4].shape.turn_rad == doctest::Approx(30.0 * 3.14159265358979323846 / 180.0));
+  CHECK(lens.surfaces[4].shape.rotation_rad == doctest::Approx(30.0 * 3.14159265358979323846 / 180.0));
   CHECK(lens.surfaces[4].pose == SurfacePose{});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rims that are not circles: rims_of() against elementary geometry, both tracers against places on the glass.
+// Rims that are not circles: rims_of() against elementary geometry, both tracers against points on the glass.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -18,8 +18,8 @@ namespace {
 // The definition: within the half sides in the aperture's own frame, and within the disc.
 bool is_clear(const ClearAperture& a, double semi_diameter_mm, Vec2 at) {
   const Vec2 from = at - a.centre_mm;
-  const double x = from.x * std::cos(a.turn_rad) + from.y * std::sin(a.turn_rad);
-  const double y = -from.x * std::sin(a.turn_rad) + from.y * std::cos(a.turn_rad);
+  const double x = from.x * std::cos(a.rotation_rad) + from.y * std::sin(a.rotation_rad);
+  const double y = -from.x * std::sin(a.rotation_rad) + from.y * std::cos(a.rotation_rad);
   const double u = x / a.half_mm.x, v = y / a.half_mm.y;
   const bool inside = a.kind == ApertureKind::Ellipse ? u * u + v * v <= 1.0 : std::abs(u) <= 1.0 && std::abs(v) <= 1.0;
   return inside && length(at) <= semi_diameter_mm;
@@ -43,7 +43,7 @@ LensState heliar_with(const ClearAperture& front, const SurfacePose& pose = {}) 
   return *state;
 }
 
-// The places where a ray meets the glass of surface 1, at each hit, in the surface's own coordinates.
+// The points where a ray meets the glass of surface 1, at each hit, in the surface's own coordinates.
 std::vector<Vec2> crossings_of_front(const OpticalPath& path, const Ray& ray, const SurfacePose& pose) {
   std::vector<Vec2> out;
   for (const TraceStep& step : trace_recorded(path, ray).steps) {
@@ -65,16 +65,16 @@ OpticalPath path_of(const LensState& lens, const Ghost& ghost) {
 
 TEST_CASE("an aperture's rims hold what lies within it and nothing else") {
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> place(-11.0, 11.0);
+  std::uniform_real_distribution<double> coordinate(-11.0, 11.0);
   for (const ClearAperture& aperture : kApertures) {
     const auto rims = rims_of(aperture, 10.0);
     REQUIRE_FALSE(rims.empty());
     int inside = 0;
     for (int k = 0; k < 5000; ++k) {
-      const Vec2 at{place(random), place(random)};
+      const Vec2 at{coordinate(random), coordinate(random)};
       const bool clear = is_clear(aperture, 10.0, at);
       inside += clear ? 1 : 0;
-      CHECK(std::ranges::all_of(rims, [&](const Rim& rim) { return length(rim.place(at)) <= 1.0; }) == clear);
+      CHECK(std::ranges::all_of(rims, [&](const Rim& rim) { return length(rim.coordinates(at)) <= 1.0; }) == clear);
     }
     CHECK(inside > 100);
   }
@@ -87,7 +87,7 @@ TEST_CASE("an aperture's rims hold what lies within it and nothing else") {
 TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, in every tracer") {
   const SurfacePose askew{{0.4, -0.3, 0.0}, normalized({0.02, 0.03, 1.0})};
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(-13.0, 13.0);
+  std::uniform_real_distribution<double> coordinate(-13.0, 13.0);
   for (const SurfacePose& pose : {SurfacePose{}, askew}) {
     for (const ClearAperture& aperture : kApertures) {
       const LensState lens = heliar_with(aperture, pose);
@@ -100,31 +100,31 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
         const PacketPath packets(path, tables, {{0, 0, -5.0}, LightSource{{0, 0, 1}}});
         int blocked = 0, open = 0;
         for (int k = 0; k < 300; ++k) {
-          const Vec2 at{place(random), place(random)};
+          const Vec2 at{coordinate(random), coordinate(random)};
           const Ray ray{{at.x, at.y, -5.0}, {0, 0, 1}};
           const TracedRay through = trace(path, ray), before = trace(plain, ray);
           CHECK(through.status == before.status);
           if (through.status != RayStatus::Ok) continue;
           CHECK(through.sensor_mm.y == doctest::Approx(before.sensor_mm.y).epsilon(1e-12));
           CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
-          bool clear = before.r_rel <= 1.0;
+          bool clear = before.relative_height <= 1.0;
           for (const Vec2 on_glass : crossings_of_front(plain, ray, pose))
             clear = clear && is_clear(aperture, semi_mm, on_glass);
-          CHECK((through.r_rel <= 1.0) == clear);
+          CHECK((through.relative_height <= 1.0) == clear);
           (clear ? open : blocked) += 1;
 
           const float x = static_cast<float>(at.x), y = static_cast<float>(at.y);
-          float sx = 0, sy = 0, transmission = 0, r_rel = 0, px = 0, py = 0;
-          TracedArrays out{&sx, &sy, &transmission, &r_rel, {&px}, {&py}, nullptr, 0};
+          float sx = 0, sy = 0, transmission = 0, relative_height = 0, px = 0, py = 0;
+          TracedArrays out{&sx, &sy, &transmission, &relative_height, {&px}, {&py}, nullptr, 0};
           trace_packets(packets, PacketPrecision::Double, &x, &y, 1, out);
-          CHECK(r_rel == doctest::Approx(through.r_rel).epsilon(1e-4));
+          CHECK(relative_height == doctest::Approx(through.relative_height).epsilon(1e-4));
           CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
 
           std::vector<float> fields(7 * kClearancePadding), xs(kClearancePadding, x), ys(kClearancePadding, y);
           const auto field = [&](std::size_t n) { return fields.data() + n * kClearancePadding; };
           trace_clearance(packets, PacketPrecision::Double, xs.data(), ys.data(), 1,
                           {field(0), field(1), field(2), field(3), {field(4)}, {field(5)}});
-          CHECK(std::hypot(*field(2), *field(3)) == doctest::Approx(through.r_rel).epsilon(1e-3));
+          CHECK(std::hypot(*field(2), *field(3)) == doctest::Approx(through.relative_height).epsilon(1e-3));
         }
         CHECK(open > 5);
         CHECK(blocked > 5);
@@ -137,30 +137,31 @@ TEST_CASE("an obscuration blocks where light meets the glass within it, each tim
   const SurfacePose askew{{0.4, -0.3, 0.0}, normalized({0.02, 0.03, 1.0})};
   const Obscuration obscurations[] = {{{3.0, 3.0}, {}, 0.0}, {{4.0, 1.5}, {1.0, -0.5}, 0.4}};
   std::mt19937 random(6);
-  std::uniform_real_distribution<double> place(-9.0, 9.0);
+  std::uniform_real_distribution<double> coordinate(-9.0, 9.0);
   for (const SurfacePose& pose : {SurfacePose{}, askew}) {
     for (const Obscuration& obscuration : obscurations) {
       const LensState round = heliar_with({}, pose);
       LensState lens = round;
       lens.surfaces.front().obscuration = obscuration;
       CHECK(lens.has_axial_symmetry() == (pose == SurfacePose{} && obscuration.has_axial_symmetry()));
-      const ClearAperture same{ApertureKind::Ellipse, obscuration.half_mm, obscuration.centre_mm, obscuration.turn_rad};
+      const ClearAperture same{ApertureKind::Ellipse, obscuration.half_mm, obscuration.centre_mm,
+                               obscuration.rotation_rad};
       for (const Ghost& ghost : {Ghost{}, Ghost{1, 2}}) {
         const OpticalPath path = path_of(lens, ghost), plain = path_of(round, ghost);
         const ReflectanceTables tables(lens, 550.0);
         const PacketPath packets(path, tables, {{0, 0, -5.0}, LightSource{{0, 0, 1}}});
         int obscured = 0, free = 0;
         for (int k = 0; k < 300; ++k) {
-          const Vec2 at{place(random), place(random)};
+          const Vec2 at{coordinate(random), coordinate(random)};
           const Ray ray{{at.x, at.y, -5.0}, {0, 0, 1}};
           const TracedRay through = trace(path, ray), before = trace(plain, ray);
           const TracedRay searched = trace(without_obscurations(path), ray);
           CHECK(through.status == before.status);
           if (through.status != RayStatus::Ok) continue;
-          CHECK(through.r_rel == doctest::Approx(before.r_rel).epsilon(1e-12));
+          CHECK(through.relative_height == doctest::Approx(before.relative_height).epsilon(1e-12));
           CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
           CHECK(searched.obscured < 0.0);
-          CHECK(searched.r_rel == before.r_rel);  // the same steps
+          CHECK(searched.relative_height == before.relative_height);  // the same steps
           bool meets = false;
           for (const Vec2 on_glass : crossings_of_front(plain, ray, pose))
             meets = meets || is_clear(same, 1e3, on_glass);
@@ -169,17 +170,18 @@ TEST_CASE("an obscuration blocks where light meets the glass within it, each tim
           (meets ? obscured : free) += 1;
 
           const float x = static_cast<float>(at.x), y = static_cast<float>(at.y);
-          float sx = 0, sy = 0, transmission = 0, r_rel = 0, px = 0, py = 0;
+          float sx = 0, sy = 0, transmission = 0, relative_height = 0, px = 0, py = 0;
           std::vector<float> squared(path.steps.size());
           trace_packets(packets, PacketPrecision::Double, &x, &y, 1,
-                        {&sx, &sy, &transmission, &r_rel, {&px}, {&py}, squared.data(), 1});
+                        {&sx, &sy, &transmission, &relative_height, {&px}, {&py}, squared.data(), 1});
           const double p = 1.0 - through.obscured;
-          CHECK(r_rel == doctest::Approx(std::max(through.r_rel, 2.0 - p)).epsilon(1e-4));
+          CHECK(relative_height == doctest::Approx(std::max(through.relative_height, 2.0 - p)).epsilon(1e-4));
           CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
-          double deepest = -1e30;
+          double largest_excess = -1e30;
           for (std::size_t step = 0; step < path.steps.size(); ++step)
-            if (path.steps[step].blocks_within) deepest = std::max(deepest, static_cast<double>(squared[step]));
-          if (p > 1e-3 && p < 2.0) CHECK(deepest == doctest::Approx(2.0 - p * p).epsilon(1e-3));
+            if (path.steps[step].blocks_within)
+              largest_excess = std::max(largest_excess, static_cast<double>(squared[step]));
+          if (p > 1e-3 && p < 2.0) CHECK(largest_excess == doctest::Approx(2.0 - p * p).epsilon(1e-3));
         }
         CHECK(obscured > 5);
         CHECK(free > 5);

@@ -26,7 +26,7 @@ Ray oracle_ray(const nlohmann::json& r) {
   return {{r["through_z0"][0], r["through_z0"][1], 0.0}, {0.0, std::sin(field), std::cos(field)}};
 }
 
-void check_landing(const TracedRay& traced, const nlohmann::json& r) {
+void check_image_point(const TracedRay& traced, const nlohmann::json& r) {
   REQUIRE(traced.status == RayStatus::Ok);
   check_near(traced.sensor_mm.x, r["image_xyz"][0]);
   check_near(traced.sensor_mm.y, r["image_xyz"][1]);
@@ -73,10 +73,10 @@ void check_ghost(const LensState& lens, const std::string& system, const nlohman
       continue;
     }
     if (takes_second_crossing(system, ghost, k)) {
-      CHECK(traced.r_rel > 1.25);
+      CHECK(traced.relative_height > 1.25);
       continue;
     }
-    check_landing(traced, r);
+    check_image_point(traced, r);
     if (r["stop_xy"].is_null()) continue;
     const Vec2 stop = traced.stop[static_cast<std::size_t>(path.stop_crossings - 1)] * path.stop_radius_mm;
     check_near(stop.x, r["stop_xy"][0]);
@@ -97,14 +97,14 @@ TEST_CASE("ghost and primary rays agree with the independent tracer to 1e-6 mm")
     CAPTURE(name);
     const auto table = test::shared_data("lenses/bodonyi-tables/" + name + ".csv");
     if (!table) return;
-    const LensState lens = test::place(test::read_csv_lens(*table));
+    const LensState lens = test::configured(test::read_csv_lens(*table));
     check_near(lens.focal_length_mm, system["efl"]);
     check_near(lens.sensor_z_mm - lens.surfaces.back().z_mm, system["bfl"]);
 
     const OpticalPath direct = direct_path(lens, kLineD_nm);
     for (const auto& r : system["primary_rays"]) {
       const RayRecord record = trace_recorded(direct, oracle_ray(r));
-      check_landing(record.ray, r);
+      check_image_point(record.ray, r);
       for (const auto& point : r["points"]) {
         const auto& step = record.steps.at(point[0].get<std::size_t>() - 1);
         check_near(step.position_mm.x, point[1]);

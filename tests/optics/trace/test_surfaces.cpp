@@ -45,21 +45,24 @@ RayRecord meet(double curvature, const SurfaceShape& shape, const Ray& ray) {
 }
 
 std::vector<std::pair<double, SurfaceShape>> any_shapes() {
-  return {
-      {1.0 / 27, even_asphere(0.3, {0, 1e-3, 0, -1e-5, 0, 2e-8, 0, 1e-10})},
-      {-1.0 / 19, even_asphere(-2.5, {0, 0, 0, 4e-5, 0, -2e-7})},
-      {1.0 / 40, even_asphere(0.0, {2e-3, -1e-3, 1e-4, 0, 3e-6})},
-      {0.0, even_asphere(0.0, {0, 4e-3, 0, 1e-5})},
-      {1.0 / 30,
-       {.kind = ShapeKind::Toroid,
-        .conic = -0.7,
-        .powers = {0, 0, 0, 1e-5},
-        .curvature_x_per_mm = -1.0 / 22,
-        .turn_rad = 0.4}},
-      {-1.0 / 25, {.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.0, .turn_rad = -1.2}},
-      {0.0, toroid(1.0 / 15)},
-      {1.0 / 30,
-       {.kind = ShapeKind::Biconic, .conic = 0.4, .curvature_x_per_mm = 1.0 / 18, .conic_x = -3.0, .turn_rad = 2.0}}};
+  return {{1.0 / 27, even_asphere(0.3, {0, 1e-3, 0, -1e-5, 0, 2e-8, 0, 1e-10})},
+          {-1.0 / 19, even_asphere(-2.5, {0, 0, 0, 4e-5, 0, -2e-7})},
+          {1.0 / 40, even_asphere(0.0, {2e-3, -1e-3, 1e-4, 0, 3e-6})},
+          {0.0, even_asphere(0.0, {0, 4e-3, 0, 1e-5})},
+          {1.0 / 30,
+           {.kind = ShapeKind::Toroid,
+            .conic = -0.7,
+            .powers = {0, 0, 0, 1e-5},
+            .curvature_x_per_mm = -1.0 / 22,
+            .rotation_rad = 0.4}},
+          {-1.0 / 25, {.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.0, .rotation_rad = -1.2}},
+          {0.0, toroid(1.0 / 15)},
+          {1.0 / 30,
+           {.kind = ShapeKind::Biconic,
+            .conic = 0.4,
+            .curvature_x_per_mm = 1.0 / 18,
+            .conic_x = -3.0,
+            .rotation_rad = 2.0}}};
 }
 
 }  // namespace
@@ -115,10 +118,10 @@ TEST_CASE("sags, intercepts and normals as in optiland's tests") {
   // The normals' z is negative there.
   const auto normal = [&](const char* test, const SurfaceShape& shape) {
     const Vec2 slope = surface_at(0.1, shape, {1, 2})->slope;
-    const double share = 1.0 / std::sqrt(1.0 + dot(slope, slope));
-    same(slope.x * share, stated(test, "nx"));
-    same(slope.y * share, stated(test, "ny"));
-    same(-share, stated(test, "nz"));
+    const double fraction = 1.0 / std::sqrt(1.0 + dot(slope, slope));
+    same(slope.x * fraction, stated(test, "nx"));
+    same(slope.y * fraction, stated(test, "ny"));
+    same(-fraction, stated(test, "nz"));
   };
   normal("TestStandardGeometry.test_surface_normal", even_asphere(0.5, {}));
   normal("TestEvenAsphere.test_surface_normal", even_asphere(0.5, {0, 1e-2}));
@@ -200,7 +203,7 @@ TEST_CASE("a surface ends where its root does, and rays beyond are blocked or mi
   for (const SurfaceShape& shape :
        {even_asphere(1.0, {0, 0, 0, 1e-6}), SurfaceShape{.kind = ShapeKind::Biconic, .conic = 1.0}}) {
     const RayRecord beyond = meet(0.1, shape, {{0.0, 9.0, -5.0}, {0, 0, 1}});
-    CHECK((beyond.ray.status == RayStatus::Missed || beyond.ray.r_rel > 1.0));
+    CHECK((beyond.ray.status == RayStatus::Missed || beyond.ray.relative_height > 1.0));
   }
   const double nan = std::nan("");
   CHECK(meet(0.1, even_asphere(0.5, {0, 1e-3}), {{nan, 0, 0}, {0, 0, 1}}).ray.status == RayStatus::NotFinite);
@@ -216,7 +219,8 @@ TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their s
     for (SurfaceState& s : same.surfaces) {
       if (s.kind == SurfaceKind::Stop) continue;
       s.shape = even_asphere(0.0, {0, 0, 0, 1e-300});
-      if (as_toroid) s.shape = {.kind = ShapeKind::Toroid, .curvature_x_per_mm = s.curvature_per_mm, .turn_rad = 0.3};
+      if (as_toroid)
+        s.shape = {.kind = ShapeKind::Toroid, .curvature_x_per_mm = s.curvature_per_mm, .rotation_rad = 0.3};
     }
     CHECK(same.has_axial_symmetry() == !as_toroid);
     CHECK(first_order(same, 550.0).focal_length_x_mm == doctest::Approx(sphere.focal_length_mm).epsilon(1e-3));
@@ -242,7 +246,7 @@ TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their s
           const double scale = std::max(1.0, length(a.sensor_mm));
           CHECK(length(a.sensor_mm - b.sensor_mm) <= 1e-12 * 100.0 * scale);
           CHECK(b.transmission == doctest::Approx(a.transmission).epsilon(1e-11));
-          CHECK(b.r_rel == doctest::Approx(a.r_rel).epsilon(1e-12));
+          CHECK(b.relative_height == doctest::Approx(a.relative_height).epsilon(1e-12));
           x.push_back(static_cast<float>(at.x));
           y.push_back(static_cast<float>(at.y));
           expected.push_back(a);
@@ -293,7 +297,7 @@ TEST_CASE("packets of rays meet every surface where single rays do, moved and ti
           const TracedRay single = trace(path, {{x[k], y[k], -5.0}, direction});
           REQUIRE(single.status == RayStatus::Ok);
           CHECK(length(Vec2{sx[k], sy[k]} - single.sensor_mm) < tolerance);
-          CHECK(r[k] == doctest::Approx(single.r_rel).epsilon(1e-4));
+          CHECK(r[k] == doctest::Approx(single.relative_height).epsilon(1e-4));
           CHECK(t[k] == doctest::Approx(single.transmission).epsilon(1e-4));
         }
       }
@@ -339,7 +343,7 @@ TEST_CASE("a polynomial's r^2 counts as curvature, and a cylinder at an angle as
   LensState lens = one_surface(1.0 / 50, even_asphere(0.0, {0, 1e-3, 0, 1e-5}));
   const double power = 0.6 * (1.0 / 50 + 2e-3);
   CHECK(abcd_between(lens.surfaces, 0, 0, 550.0).c == doctest::Approx(-power / 1.6).epsilon(1e-14));
-  lens = one_surface(0.0, {.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.02, .turn_rad = 0.5});
+  lens = one_surface(0.0, {.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.02, .rotation_rad = 0.5});
   CHECK(abcd_between(lens.surfaces, 0, 0, 550.0, Section::X).c ==
         doctest::Approx(-0.6 / 1.6 * 0.02 * std::pow(std::cos(0.5), 2)).epsilon(1e-14));
   CHECK(abcd_between(lens.surfaces, 0, 0, 550.0, Section::Y).c ==

@@ -18,7 +18,7 @@ LensState plate(double thickness_mm, double n, double sensor_mm) {
   lens.surfaces = {{SurfaceKind::Stop, 0.0, 2.0, 10.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.0, thickness_mm, 20.0, {"", ConstantIndex{n}}, {}, 0},
                    {SurfaceKind::Refracting, 0.0, 0.0, 20.0, air(), {}, 0}};
-  LensState state = test::place(lens, 10.0);
+  LensState state = test::configured(lens, 10.0);
   state.sensor_z_mm = 2.0 + thickness_mm + sensor_mm;
   return state;
 }
@@ -52,7 +52,7 @@ TEST_CASE("a ball lens's ghost ray is turned by 2 theta - 6 theta' in all (secon
   ball.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 4.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 1.0 / radius, 2 * radius, 4.9, {"", ConstantIndex{n}}, {}, 0},
                    {SurfaceKind::Refracting, -1.0 / radius, 0.0, 4.9, air(), {}, 0}};
-  const LensState lens = test::place(ball, 4.0);
+  const LensState lens = test::configured(ball, 4.0);
   for (const double height : {0.1, 0.5, 1.5}) {
     const TracedRay ghost = trace(ghost_path(lens, {2, 3}, kLineD_nm), {{0.0, height, 0.0}, {0, 0, 1}});
     REQUIRE(ghost.status == RayStatus::Ok);
@@ -70,7 +70,7 @@ TEST_CASE("failures are data") {
   lens.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 4.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.2, 2.0, 4.0, {"", ConstantIndex{1.9}}, {}, 0},
                    {SurfaceKind::Refracting, 0.0, 0.0, 4.0, air(), {}, 0}};
-  const LensState state = test::place(lens, 4.0);
+  const LensState state = test::configured(lens, 4.0);
   const OpticalPath path = direct_path(state, kLineD_nm);
   CHECK(trace(path, {{0.0, 7.0, 0.0}, {0, 0, 1}}).status == RayStatus::Missed);
   CHECK(trace(path, {{0.0, 4.95, 0.0}, {0, 0, 1}}).status == RayStatus::TotalReflection);
@@ -85,7 +85,7 @@ TEST_CASE("r_rel and stop coordinates tell what blocks a ray") {
   const OpticalPath path = direct_path(lens, kLineD_nm);
   const Iris circle;
   const TracedRay inside = trace(path, {{6.0, 0.0, 0.0}, {0, 0, 1}});
-  CHECK(inside.r_rel == doctest::Approx(0.3));
+  CHECK(inside.relative_height == doctest::Approx(0.3));
   CHECK(inside.stop[0].x == doctest::Approx(0.6));
   CHECK(blocked_by(inside, path, circle) == doctest::Approx(-0.4));
   const TracedRay outside = trace(path, {{15.0, 0.0, 0.0}, {0, 0, 1}});
@@ -100,7 +100,7 @@ TEST_CASE("the entrance window holds every ray that can pass inside surface 1") 
   bulging.surfaces = {{SurfaceKind::Refracting, 1.0 / 12.0, 5.0, 11.0, {"", ConstantIndex{1.6}}, {}, 0},
                       {SurfaceKind::Stop, 0.0, 5.0, 3.0, {"", ConstantIndex{1.6}}, {}, 0},
                       {SurfaceKind::Refracting, 0.0, 0.0, 11.0, air(), {}, 0}};
-  const LensState lens = test::place(bulging, 3.0);
+  const LensState lens = test::configured(bulging, 3.0);
   for (const double angle : {0.0, 0.4, 0.9, 1.3}) {
     const Vec3 direction = tilted(angle);
     const EntranceWindow window = entrance_window(lens, direction);
@@ -122,7 +122,7 @@ TEST_CASE("the entrance window holds every ray of a point that can pass inside s
     first.surfaces = {{SurfaceKind::Refracting, curvature, 5.0, 11.0, {"", ConstantIndex{1.6}}, {}, 0},
                       {SurfaceKind::Stop, 0.0, 5.0, 3.0, {"", ConstantIndex{1.6}}, {}, 0},
                       {SurfaceKind::Refracting, 0.0, 0.0, 11.0, air(), {}, 0}};
-    const LensState lens = test::place(first, 3.0);
+    const LensState lens = test::configured(first, 3.0);
     const double rim_z = curvature == 0.0 ? 0.0 : (12.0 - std::sqrt(144.0 - 121.0)) * (curvature > 0.0 ? 1.0 : -1.0);
     for (const Vec3 from : {Vec3{0, 0, -0.2}, Vec3{3, -1, -4}, Vec3{50, 20, -60}, Vec3{0, 0, -500}}) {
       const Vec3 point{from.x, from.y, from.z + std::min(0.0, rim_z)};
@@ -151,7 +151,7 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
   singlet.surfaces = {{SurfaceKind::Stop, 0.0, 2.0, 5.0, air(), {}, 0},
                       {SurfaceKind::Refracting, 1.0 / 60.0, 4.0, 12.0, {"", ConstantIndex{1.6}}, {}, 0},
                       {SurfaceKind::Refracting, -1.0 / 80.0, 0.0, 12.0, air(), {}, 0}};
-  const LensState lens = test::place(singlet, 2.0);
+  const LensState lens = test::configured(singlet, 2.0);
   for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{60, 5}, Vec2{300, -200}}) {
     const Vec3 d = direction_for_image_point(lens, p, kLineD_nm);
     CHECK(length(d) == doctest::Approx(1.0));

@@ -31,7 +31,7 @@ struct AffineGhost {
   std::vector<Affine> rims;  // to coordinates over the semi-diameter
   double flux = 3.0;         // of the whole box, green; red has twice as much, blue none
   int weights = 1;           // or 3
-  double bend_px = 0.0;      // by which corners at u = 1 are farther along y, with (u + 1)^4, and back at v = 0
+  double sag_px = 0.0;      // by which corners at u = 1 are farther along y, with (u + 1)^4, and back at v = 0
 
   [[nodiscard]] Patch patch() const {
     Patch patch;
@@ -46,8 +46,8 @@ struct AffineGhost {
       const auto n = static_cast<std::size_t>(nodes);
       const Vec2 uv{points[k % n], points[k / n]};
       const auto set = [&](int field, double value) { patch.field(field)[k] = static_cast<float>(value); };
-      const Vec2 bend{0.0, bend_px * std::pow(0.5 * (uv.x + 1.0), 4) * (2.0 * uv.y * uv.y - 1.0)};
-      const Vec2 p = pixels(uv) + bend - patch.origin_px;
+      const Vec2 sag{0.0, sag_px * std::pow(0.5 * (uv.x + 1.0), 4) * (2.0 * uv.y * uv.y - 1.0)};
+      const Vec2 p = pixels(uv) + sag - patch.origin_px;
       set(PatchLayout::kX, p.x);
       set(PatchLayout::kY, p.y);
       set(patch.layout.weight(0), weights == 1 ? 1.0 : 2.0);
@@ -63,8 +63,8 @@ struct AffineGhost {
     return patch;
   }
 
-  // The fraction of the box that gets through, by counting places of a grid.
-  [[nodiscard]] double open_share(const Iris& iris, int side = 1000) const {
+  // The fraction of the box that gets through, by counting points of a grid.
+  [[nodiscard]] double open_fraction(const Iris& iris, int side = 1000) const {
     int open = 0;
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
@@ -85,7 +85,7 @@ inline constexpr int kHeight = 200;
 inline Frame frame_px() { return {kWidth, kHeight, 0, 0, kWidth, kHeight, 0.01}; }
 
 // error: RMS, relative to the ghost's mean level over its area.
-inline PolygonList painted(const AffineGhost& ghost, const Iris& iris, double error = 1e-3) {
+inline PolygonList tessellated(const AffineGhost& ghost, const Iris& iris, double error = 1e-3) {
   const double area_px = std::max(4.0 * std::abs(ghost.pixels.determinant()), 1.0);
   const double level = 2.0 * ghost.flux / area_px;
   PolygonList list;

@@ -15,10 +15,10 @@
 
 namespace contrejour::test {
 
+using adaptive::LinearIrradiance;
 using adaptive::Point;
 using adaptive::Polygon;
 using adaptive::PolygonList;
-using adaptive::Shade;
 
 using Corners = std::vector<Vec2>;
 
@@ -42,9 +42,9 @@ inline double area_of(const Corners& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-inline double shade_at(const Shade& shade, std::size_t channel, Vec2 p) {
-  return shade.value[channel] + (p.x - shade.at.x) * static_cast<double>(shade.along_x[channel]) +
-         (p.y - shade.at.y) * static_cast<double>(shade.along_y[channel]);
+inline double irradiance_at(const LinearIrradiance& irradiance, std::size_t channel, Vec2 p) {
+  return irradiance.value[channel] + (p.x - irradiance.at.x) * static_cast<double>(irradiance.along_x[channel]) +
+         (p.y - irradiance.at.y) * static_cast<double>(irradiance.along_y[channel]);
 }
 
 // Each pixel receives the polygon's area in it times the irradiance at its centre.
@@ -53,10 +53,10 @@ class PlainImage {
   PlainImage(int width, int height)
       : width_(width), height_(height), values_(static_cast<std::size_t>(3 * width * height)) {}
 
-  // share: the transmittance of a polygon's light at a pixel, by channel.
-  using Share = std::function<std::array<double, 3>(const Polygon& polygon, Vec2 pixel)>;
-  void add(const PolygonList& list, const Share& share = {}) {
-    for (const Polygon& p : list.polygons) add(list, p, share);
+  // fraction: the transmittance of a polygon's light at a pixel, by channel.
+  using Fraction = std::function<std::array<double, 3>(const Polygon& polygon, Vec2 pixel)>;
+  void add(const PolygonList& list, const Fraction& fraction = {}) {
+    for (const Polygon& p : list.polygons) add(list, p, fraction);
   }
 
   // The largest difference, relative to the size of the summands.
@@ -68,26 +68,28 @@ class PlainImage {
   [[nodiscard]] double scale() const { return scale_; }
 
  private:
-  void add(const PolygonList& list, const Polygon& polygon, const Share& passes) {
-    const Shade& shade = list.shade_of(polygon);
+  void add(const PolygonList& list, const Polygon& polygon, const Fraction& passes) {
+    const LinearIrradiance& irradiance = list.irradiance_of(polygon);
     Corners corners;
     for (const Point p : list.corners_of(polygon)) corners.push_back({p.x, p.y});
     const auto by_x = std::minmax_element(corners.begin(), corners.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
     const auto by_y = std::minmax_element(corners.begin(), corners.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
-    const auto pixel = [](double v, int most) { return static_cast<int>(std::clamp(std::floor(v), 0.0, most - 1.0)); };
+    const auto pixel = [](double v, int largest) {
+      return static_cast<int>(std::clamp(std::floor(v), 0.0, largest - 1.0));
+    };
     for (int y = pixel(by_y.first->y, height_); y <= pixel(by_y.second->y, height_); ++y) {
       const Corners row = clipped(clipped(corners, &Vec2::y, y, 1.0), &Vec2::y, y + 1, -1.0);
       for (int x = pixel(by_x.first->x, width_); x <= pixel(by_x.second->x, width_); ++x) {
-        double share = area_of(clipped(clipped(row, &Vec2::x, x, 1.0), &Vec2::x, x + 1, -1.0));
+        double fraction = area_of(clipped(clipped(row, &Vec2::x, x, 1.0), &Vec2::x, x + 1, -1.0));
         if (corners.size() == 1) {
-          share = std::floor(corners[0].x) == x && std::floor(corners[0].y) == y ? 1.0 : 0.0;
+          fraction = std::floor(corners[0].x) == x && std::floor(corners[0].y) == y ? 1.0 : 0.0;
         }
-        const Vec2 at = corners.size() == 1 ? Vec2{shade.at.x, shade.at.y} : Vec2{x + 0.5, y + 0.5};
-        const auto passed = passes && share > 0.0 ? passes(polygon, at) : std::array{1.0, 1.0, 1.0};
+        const Vec2 at = corners.size() == 1 ? Vec2{irradiance.at.x, irradiance.at.y} : Vec2{x + 0.5, y + 0.5};
+        const auto passed = passes && fraction > 0.0 ? passes(polygon, at) : std::array{1.0, 1.0, 1.0};
         for (std::size_t c = 0; c < 3; ++c) {
-          const double value = shade_at(shade, c, at) * passed[c];
+          const double value = irradiance_at(irradiance, c, at) * passed[c];
           scale_ = std::max(scale_, std::abs(value));
-          values_[static_cast<std::size_t>(3 * (y * width_ + x)) + c] += share * value;
+          values_[static_cast<std::size_t>(3 * (y * width_ + x)) + c] += fraction * value;
         }
       }
     }
@@ -103,8 +105,8 @@ class Fuzz {
   explicit Fuzz(unsigned seed) : random_(seed) {}
   double operator()(double low, double high) { return low + (high - low) * unit_(random_); }
 
-  Shade shade(Vec2 at) {
-    Shade s;
+  LinearIrradiance irradiance(Vec2 at) {
+    LinearIrradiance s;
     s.at = {static_cast<float>(at.x), static_cast<float>(at.y)};
     for (std::size_t c = 0; c < 3; ++c) {
       s.value[c] = static_cast<float>((*this)(0.1, 2.0));
@@ -116,13 +118,14 @@ class Fuzz {
 
   // An ellipse's polygon, either way round; flat: how much narrower than long. snap: corners on halves of pixels.
   std::vector<Point> ellipse(Vec2 middle, double radius, double flat, bool snap) {
-    const double turn = (*this)(0.0, 6.3);
+    const double rotation = (*this)(0.0, 6.3);
     const int count = 3 + static_cast<int>((*this)(0.0, 7.0));
     std::vector<Point> corners;
     for (int k = 0; k < count; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / count;
       const Vec2 q{radius * std::cos(angle), radius * flat * std::sin(angle)};
-      Vec2 p = middle + Vec2{q.x * std::cos(turn) - q.y * std::sin(turn), q.x * std::sin(turn) + q.y * std::cos(turn)};
+      Vec2 p = middle + Vec2{q.x * std::cos(rotation) - q.y * std::sin(rotation),
+                             q.x * std::sin(rotation) + q.y * std::cos(rotation)};
       if (snap) p = {std::round(2.0 * p.x) / 2.0, std::round(2.0 * p.y) / 2.0};
       corners.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
     }

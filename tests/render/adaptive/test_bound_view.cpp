@@ -43,8 +43,8 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
       bound.normal = {std::cos(angle), std::sin(angle)};
       bound.apothem = any(random);
     }
-    const double turn = 3.0 * any(random), size = std::exp2(2.0 * any(random));
-    const Vec2 along{std::cos(turn), std::sin(turn)}, middle = Vec2{any(random), any(random)} * 1.5;
+    const double rotation = 3.0 * any(random), size = std::exp2(2.0 * any(random));
+    const Vec2 along{std::cos(rotation), std::sin(rotation)}, middle = Vec2{any(random), any(random)} * 1.5;
     const Vec2 across = along * (size * (0.6 + 0.5 * any(random)));
     const Vec2 up = Vec2{-along.y, along.x} * (size * (0.6 + 0.5 * any(random)));
     const BoundView view(bound, rectangle(middle, across, up));
@@ -52,9 +52,9 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
     const Strip band = view.deeper_than(depth);
     for (int k = 0; k < 100; ++k) {
       const Vec2 p = middle + across * any(random) + up * any(random);
-      const double place = dot(view.normal(), p);
-      if (bound.distance(p) <= 0.0) CHECK(place <= view.outer() + 1e-12);
-      if (band.is_empty() || place <= band.least || place >= band.most) continue;
+      const double position = dot(view.normal(), p);
+      if (bound.distance(p) <= 0.0) CHECK(position <= view.outer() + 1e-12);
+      if (band.is_empty() || position <= band.near_distance || position >= band.distance) continue;
       ++deep;
       CHECK(bound.distance(p) <= -depth + 1e-12);
     }
@@ -65,14 +65,14 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
 TEST_CASE("lines lie close to a bound that a polygon sees little of, and nowhere in one that it holds all of") {
   const IrisBound unit = circle({}, 1.0);
   const Strip narrow = BoundView(unit, rectangle({0.9, 0.0}, {0.2, 0.0}, {0.0, 0.1})).deeper_than(0.05);
-  CHECK(narrow.most == doctest::Approx(std::sqrt(0.95 * 0.95 - 0.01)));
-  CHECK(narrow.least == doctest::Approx(-narrow.most));
+  CHECK(narrow.distance == doctest::Approx(std::sqrt(0.95 * 0.95 - 0.01)));
+  CHECK(narrow.near_distance == doctest::Approx(-narrow.distance));
   CHECK(BoundView(unit, rectangle({0.1, 0.0}, {1.3, 0.0}, {0.0, 1.2})).deeper_than(0.1).is_empty());
   CHECK(BoundView(unit, rectangle({}, {0.2, 0.0}, {0.0, 0.2})).deeper_than(2.0).is_empty());
   IrisBound straight;
   straight.normal = {0.0, 1.0};
   straight.apothem = 0.5;
   const Strip half_plane = BoundView(straight, rectangle({}, {2.0, 0.0}, {0.0, 2.0})).deeper_than(0.1);
-  CHECK(half_plane.most == doctest::Approx(0.4));
-  CHECK(std::isinf(half_plane.least));
+  CHECK(half_plane.distance == doctest::Approx(0.4));
+  CHECK(std::isinf(half_plane.near_distance));
 }

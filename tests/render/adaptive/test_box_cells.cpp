@@ -14,7 +14,7 @@
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
-using test::Affine, test::AffineGhost, test::frame_px, test::kHeight, test::kWidth, test::painted;
+using test::Affine, test::AffineGhost, test::frame_px, test::kHeight, test::kWidth, test::tessellated;
 
 namespace {
 
@@ -25,47 +25,47 @@ Mesh mesh_of(const Patch& patch, const IrisShape& iris) {
 }
 
 // The largest deviation from 1 of a picture of the ghost, within the ghost, when all its polygons have this irradiance.
-double farthest_from_level(PolygonList list, double bend_px) {
-  for (Shade& shade : list.shades) shade = {shade.at, {1.0F, 1.0F, 1.0F}, {}, {}};
+double farthest_from_level(PolygonList list, double sag_px) {
+  for (LinearIrradiance& irradiance : list.irradiances) irradiance = {irradiance.at, {1.0F, 1.0F, 1.0F}, {}, {}};
   const Image image = test::drawn(list, kWidth, kHeight);
-  const int beside = static_cast<int>(std::abs(bend_px));
+  const int beside = static_cast<int>(std::abs(sag_px));
   double farthest = 0.0;
   for (int y = 100 - 40 + beside; y < 100 + 40 - beside; ++y)
     for (int x = 101; x < 220; ++x) farthest = std::max(farthest, std::abs(image.at(x, y, 1) - 1.0));
   return farthest;
 }
 
-AffineGhost bent_ghost(double bend_px) {
+AffineGhost curved_ghost(double sag_px) {
   AffineGhost ghost;
   ghost.nodes = 9;
   ghost.pixels = {{60.2, 0.0}, {0.0, 45.3}, {160.0, 100.0}};
-  ghost.bend_px = bend_px;
+  ghost.sag_px = sag_px;
   return ghost;
 }
 
 }  // namespace
 
 TEST_CASE("cells of different sizes leave nothing between them, and overlap nowhere") {
-  for (const double bend_px : {-6.0, 6.0, 6.5, 20.0}) {
+  for (const double sag_px : {-6.0, 6.0, 6.5, 20.0}) {
     for (const double error : {0.03, 0.003, 3e-4}) {  // a single mesh, or several of different depth
-      CAPTURE(bend_px);
+      CAPTURE(sag_px);
       CAPTURE(error);
-      const PolygonList list = painted(bent_ghost(bend_px), {}, error);
-      const auto [fewest, most] = std::ranges::minmax(list.polygons, {}, &Polygon::count);
-      CHECK(most.count > fewest.count);
-      CHECK(farthest_from_level(list, bend_px) < 1e-5);
+      const PolygonList list = tessellated(curved_ghost(sag_px), {}, error);
+      const auto [min_count, largest] = std::ranges::minmax(list.polygons, {}, &Polygon::count);
+      CHECK(largest.count > min_count.count);
+      CHECK(farthest_from_level(list, sag_px) < 1e-5);
     }
   }
 }
 
 TEST_CASE("patches of one box leave nothing between them, whatever they count positions from") {
-  constexpr double kBend_px = 20.0;
-  const Patch whole = bent_ghost(kBend_px).patch();
+  constexpr double kSag_px = 20.0;
+  const Patch whole = curved_ghost(kSag_px).patch();
   PolygonList list;
   const IrisShape iris{Iris{}};
   BoxCells room;
   Tessellator tessellator(iris, frame_px(), {3e-4, 1e-3}, 64.0, room, list);
-  const MeshPlace place{0, 0};
+  const MeshPosition position{0, 0};
   for (std::size_t q = 0; q < 4; ++q) {
     Patch part = quarter(whole, static_cast<int>(q % 2), static_cast<int>(q / 2));
     const Vec2 moved{90.0 * static_cast<double>(q), -105.0};
@@ -75,15 +75,16 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
       part.field(PatchLayout::kY)[k] -= static_cast<float>(moved.y);
     }
     if (q != 3) {
-      tessellator.choose(part, place.quarter(q));
+      tessellator.choose(part, position.quarter(q));
       continue;
     }
     for (std::size_t r = 0; r < 4; ++r)  // deeper than its neighbours
-      tessellator.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)), place.quarter(q).quarter(r));
+      tessellator.choose(quarter(part, static_cast<int>(r % 2), static_cast<int>(r / 2)),
+                         position.quarter(q).quarter(r));
   }
   tessellator.emit();
   REQUIRE(list.polygons.size() > 20);
-  CHECK(farthest_from_level(list, kBend_px) < 1e-5);
+  CHECK(farthest_from_level(list, kSag_px) < 1e-5);
   // Every edge is also that of another polygon, in reverse, except those around the box.
   using Edge = std::array<float, 4>;
   std::set<Edge> edges;
@@ -94,12 +95,12 @@ TEST_CASE("patches of one box leave nothing between them, whatever they count po
     }
   };
   for_each_edge([&](Point a, Point b) { edges.insert(Edge{a.x, a.y, b.x, b.y}); });
-  const Affine pixels = bent_ghost(kBend_px).pixels;
+  const Affine pixels = curved_ghost(kSag_px).pixels;
   for_each_edge([&](Point a, Point b) {
     if (edges.contains(Edge{b.x, b.y, a.x, a.y})) return;
     const double u = (0.5 * (a.x + b.x) - pixels.offset.x) / pixels.along_u.x;
-    const double bend = kBend_px * std::pow(0.5 * (u + 1.0), 4);
-    const double v = (0.5 * (a.y + b.y) - bend - pixels.offset.y) / pixels.along_v.y;
+    const double sag = kSag_px * std::pow(0.5 * (u + 1.0), 4);
+    const double v = (0.5 * (a.y + b.y) - sag - pixels.offset.y) / pixels.along_v.y;
     CHECK(std::max(std::abs(u), std::abs(v)) > 0.97);
   });
 }
@@ -109,14 +110,14 @@ TEST_CASE("even light is one plane, whatever cuts it: nothing is drawn between i
   ghost.nodes = 9;
   ghost.pixels = {{70.0, 11.0}, {-8.0, 55.0}, {160.0, 100.0}};
   ghost.stops = {{{1.3, 0.2}, {-0.1, 1.25}, {0.05, -0.03}}};
-  PolygonList list = painted(ghost, {}, 1e-4);
+  PolygonList list = tessellated(ghost, {}, 1e-4);
   REQUIRE(list.polygons.size() >= 4);
-  for (const Polygon& p : list.polygons) CHECK(list.shade_of(p) == list.shades.front());
+  for (const Polygon& p : list.polygons) CHECK(list.irradiance_of(p) == list.irradiances.front());
   const Image before = test::drawn(list, kWidth, kHeight);
   share_edges(list, kWidth, kHeight);
-  CHECK(std::ranges::count(list.partner, PolygonList::kNotDrawn) >= 8);
-  for (const std::uint32_t partner : list.partner)
-    CHECK((partner == PolygonList::kAlone || partner == PolygonList::kNotDrawn));
+  CHECK(std::ranges::count(list.neighbour, PolygonList::kSkipped) >= 8);
+  for (const std::uint32_t neighbour : list.neighbour)
+    CHECK((neighbour == PolygonList::kUnshared || neighbour == PolygonList::kSkipped));
   const Image after = test::drawn(list, kWidth, kHeight);
   double worst = 0.0;
   for (std::size_t k = 0; k < before.pixels.size(); ++k)
@@ -129,35 +130,36 @@ TEST_CASE("a plane has the light of what it is drawn for, and tells how far it i
   AffineGhost ghost;
   ghost.nodes = 9;
   ghost.pixels = {{60.2, 7.0}, {-9.0, 45.3}, {160.0, 100.0}};
-  for (const double bend_px : {0.0, 5.0}) {
-    ghost.bend_px = bend_px;
+  for (const double sag_px : {0.0, 5.0}) {
+    ghost.sag_px = sag_px;
     const Mesh mesh = mesh_of(ghost.patch(), iris);
     for (const int size : {8, 4, 2}) {
       for (int at = 0; at < Mesh::kCells; at += size) {
         const MeshSquare square{at, 0, size};
         const auto plane = LightSums(mesh, square, ~0U).plane(mesh, square);
         REQUIRE(plane.has_value());
-        const double share = size * size / 64.0;
-        CHECK(plane->shade.value[1] * plane->area_px == doctest::Approx(ghost.flux * share).epsilon(1e-4));
-        CHECK(plane->shade.value[0] == doctest::Approx(2.0 * plane->shade.value[1]));
+        const double fraction = size * size / 64.0;
+        CHECK(plane->irradiance.value[1] * plane->area_px == doctest::Approx(ghost.flux * fraction).epsilon(1e-4));
+        CHECK(plane->irradiance.value[0] == doctest::Approx(2.0 * plane->irradiance.value[1]));
         // Compares with the irradiance at each vertex, at pixels.
         double worst = 0.0;
         for (int y = 0; y <= size; ++y) {
           for (int x = at; x <= at + size; ++x) {
             const std::size_t v = Mesh::at(x, y);
             const Vec2 p = mesh.position(v) + mesh.origin_px;
-            const double there = plane->shade.value[1] + plane->shade.along_x[1] * (p.x - plane->shade.at.x) +
-                                 plane->shade.along_y[1] * (p.y - plane->shade.at.y);
+            const double there = plane->irradiance.value[1] +
+                                 plane->irradiance.along_x[1] * (p.x - plane->irradiance.at.x) +
+                                 plane->irradiance.along_y[1] * (p.y - plane->irradiance.at.y);
             worst = std::max(worst, std::abs(there / mesh.irradiance(0, v) - 1.0));
           }
         }
-        const double told = std::sqrt(plane->squared_error / plane->area_px) / plane->mean;
-        CHECK(worst < 6.0 * told + 1e-4);
-        CHECK(worst >= told - 1e-4);
+        const double predicted = std::sqrt(plane->squared_error / plane->area_px) / plane->mean;
+        CHECK(worst < 6.0 * predicted + 1e-4);
+        CHECK(worst >= predicted - 1e-4);
       }
     }
   }
-  ghost.bend_px = 60.0;  // folds
+  ghost.sag_px = 60.0;  // folds
   const Mesh folded = mesh_of(ghost.patch(), iris);
   const MeshSquare whole{0, 0, Mesh::kCells};
   CHECK_FALSE(LightSums(folded, whole, ~0U).plane(folded, whole).has_value());

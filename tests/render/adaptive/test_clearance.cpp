@@ -66,9 +66,9 @@ TEST_CASE("clearance is what trace() says: who fails, how far out, where in the 
           const TracedRay ray = trace(path, t.ray(k));
           const bool fails = t.fields[0][k] != 0.0F;
           ++(fails ? failing : passing);
-          if (ray.status == RayStatus::Ok && ray.r_rel < 1.2) {
+          if (ray.status == RayStatus::Ok && ray.relative_height < 1.2) {
             if (fails) ++differing;
-            worst = std::max(worst, std::abs(std::hypot(t.fields[2][k], t.fields[3][k]) - ray.r_rel));
+            worst = std::max(worst, std::abs(std::hypot(t.fields[2][k], t.fields[3][k]) - ray.relative_height));
             for (std::size_t c = 0; c < static_cast<std::size_t>(path.stop_crossings); ++c) {
               const Vec2 stop{t.fields[4 + 2 * c][k], t.fields[5 + 2 * c][k]};
               worst = std::max(worst, length(stop - ray.stop[c]));
@@ -90,7 +90,7 @@ TEST_CASE("rays that fail at the same test fail by what varies smoothly") {
   const OpticalPath path = ghost_path(lens, {1, 4}, 550.0);
   const Traced t = trace_window(lens, path, normalized({0.4, 0.0, 1.0}), PacketPrecision::Float);
   double largest = 0.0;
-  double bend = 0.0;
+  double sag = 0.0;
   for (std::size_t k = 1; k + 1 < kSide * kSide; ++k) {
     if (k % kSide == 0 || k % kSide == kSide - 1) continue;
     const auto& failing = t.fields[0];
@@ -98,8 +98,8 @@ TEST_CASE("rays that fail at the same test fail by what varies smoothly") {
     if (failing[k - 1] == 0.0F || failing[k] == 0.0F || failing[k + 1] == 0.0F) continue;
     if (passed[k - 1] != passed[k] || passed[k] != passed[k + 1] || passed[k] > 3.0F) continue;
     largest = std::max(largest, static_cast<double>(failing[k]));
-    bend = std::max(bend, std::abs(0.5 * (failing[k - 1] + failing[k + 1]) - failing[k]));
+    sag = std::max(sag, std::abs(0.5 * (failing[k - 1] + failing[k + 1]) - failing[k]));
   }
   CHECK(largest > 0.0);
-  CHECK(bend < 0.2 * largest);
+  CHECK(sag < 0.2 * largest);
 }

@@ -8,10 +8,10 @@
 using namespace contrejour;
 using namespace contrejour::adaptive;
 
-TEST_CASE("what is faint is drawn in preview quality as long as all of it is a small part of the error") {
-  std::vector<ItemSize> sizes(5);
+TEST_CASE("negligible items are drawn in preview quality as long as all of it is a small part of the error") {
+  std::vector<ItemEstimate> sizes(5);
   const auto size = [](double level, double area_px) {
-    ItemSize s;
+    ItemEstimate s;
     s.level = level, s.area_px = area_px;
     return s;
   };
@@ -20,5 +20,5 @@ TEST_CASE("what is faint is drawn in preview quality as long as all of it is a s
   sizes[2] = size(1e-3, 1.0);     // bright
   sizes[3] = size(2e-5, 100.0);
   sizes[4] = size(0.0, 0.0);      // no light was found
-  CHECK(faint_items(sizes, {0.003, 1.0, 1e4}) == std::vector<bool>{true, false, false, true, false});
+  CHECK(negligible_items(sizes, {0.003, 1.0, 1e4}) == std::vector<bool>{true, false, false, true, false});
 }

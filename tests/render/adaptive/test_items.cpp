@@ -20,7 +20,7 @@ struct ItemSystem {
   Vec2 uv;
 };
 
-RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Settings& settings) {
+PreviewFrame preview_frame(const LensState& lens, const Light& light, const test::Settings& settings) {
   RenderCache cache;
   const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
   REQUIRE(plan.has_value());
@@ -28,9 +28,9 @@ RoughFrame rough_frame(const LensState& lens, const Light& light, const test::Se
   const Scene scene{lens, *plan, std::move(steps), IrisShape(lens.iris)};
   Work work;
   const std::vector<Item> items = find_items(scene, {}, work);
-  Pool<BoxCells> rooms;
+  Pool<BoxCells> scratch_pool;
   TileRasteriser rasteriser;
-  return draw_roughly(scene, items, settings.frame, rooms, rasteriser, {}, work);
+  return draw_preview(scene, items, settings.frame, scratch_pool, rasteriser, {}, work);
 }
 
 }  // namespace
@@ -41,9 +41,9 @@ TEST_CASE("where around the axis a light stands changes nothing of where its ray
   test::Settings settings;
   settings.wavelengths = 3;
   settings.frame = frame_on_sensor(lens, 64, 36);
-  const auto items_for = [&](double turn) {
+  const auto items_for = [&](double rotation) {
     Light light;
-    light.direction = normalized(Vec3{2.5 * std::cos(turn), 2.5 * std::sin(turn), 1.0});
+    light.direction = normalized(Vec3{2.5 * std::cos(rotation), 2.5 * std::sin(rotation), 1.0});
     RenderCache cache;
     const auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
     REQUIRE(plan.has_value());
@@ -75,7 +75,7 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
   REQUIRE(plan.has_value());
   const auto drawn = [&](std::vector<Ghost> ghosts, std::optional<int> margin_px) {
     FramePlan part = *plan;
-    part.looks.resize(ghosts.size());
+    part.adjustments.resize(ghosts.size());
     part.ghosts = std::move(ghosts);
     part.dark_margin_px = margin_px;
     RenderCache cache;
@@ -118,9 +118,9 @@ TEST_CASE("the peak that errors are relative to is the picture's, whatever its s
         const Light light = test::light_at(lens, settings.frame, system.uv);
         const Image image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
         const double peak = quantile_of_samples(image, 0.999);
-        const double rough = rough_frame(lens, light, settings).peak / peak;
-        CHECK(rough > 0.6);
-        CHECK(rough < 2.0);
+        const double preview = preview_frame(lens, light, settings).peak / peak;
+        CHECK(preview > 0.6);
+        CHECK(preview < 2.0);
       }
     }
   }

@@ -14,7 +14,7 @@
 #include "render/adaptive/emit/pixel_pattern.h"
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
-#include "render/polygons/short_light.h"
+#include "render/polygons/packed_irradiance.h"
 #include "render/stop_patterns/band_stop_pattern.h"
 
 using namespace contrejour;
@@ -27,7 +27,7 @@ namespace {
 constexpr int kPatternedWidth = TileGrid::kWidth + 30, kPatternedHeight = TileGrid::kHeight + 9;
 constexpr double kRadius_px = 30.0;  // of the stop
 
-// The stop about a place in the frame, slightly bent: a field of a cell that is this many pixels wide and high.
+// The stop about a point in the frame, slightly curved: a field of a cell that is this many pixels wide and high.
 CellSeries pixels_about(Vec2 middle, double size) { return {middle, {0.5 * size, 0}, {0, -0.5 * size}, {}, {}, {}}; }
 CellSeries stop_about(double size) {
   const double half = 0.5 * size / kRadius_px;
@@ -51,9 +51,9 @@ std::shared_ptr<stop_patterns::BandStopPattern> edges(const std::shared_ptr<cons
     band->parts.back().channel[static_cast<std::size_t>(k++)] = 1.0F;
   }
   band->edges = band->parts.front().pattern->edges();
-  band->unit = band->edges->unit();
-  band->dark_beyond = 2.0 * band->unit;
-  band->level_within = 4.0 * band->unit;
+  band->fringe_unit = band->edges->fringe_unit();
+  band->dark_beyond = 2.0 * band->fringe_unit;
+  band->level_within = 4.0 * band->fringe_unit;
   return band;
 }
 
@@ -81,8 +81,8 @@ std::shared_ptr<stop_patterns::BandStopPattern> patterns(const std::shared_ptr<c
 }
 
 // A single wavelength: all channels have the same pattern.
-std::shared_ptr<stop_patterns::BandStopPattern> grey(std::shared_ptr<stop_patterns::BandStopPattern> band,
-                                                     PatternAtlas& atlas) {
+std::shared_ptr<stop_patterns::BandStopPattern> is_monochrome(std::shared_ptr<stop_patterns::BandStopPattern> band,
+                                                              PatternAtlas& atlas) {
   band->parts.resize(1);
   band->parts.front().channel = {1.0F, 1.0F, 1.0F};
   if (band->texture) {
@@ -93,8 +93,8 @@ std::shared_ptr<stop_patterns::BandStopPattern> grey(std::shared_ptr<stop_patter
 }
 
 double entry_of(const PolygonList& list, const EdgeTable& table, std::size_t k, std::size_t channel) {
-  return static_cast<double>(table.grey ? list.edge_steps[table.first + k].factor
-                                        : list.edge_factors[table.first + k][channel]);
+  return static_cast<double>(table.is_monochrome ? list.edge_steps[table.first + k].factor
+                                                 : list.edge_factors[table.first + k][channel]);
 }
 
 // From the entries of the table, edge by edge.
@@ -102,11 +102,13 @@ std::array<double, 3> by_table(const PolygonList& list, const Pattern& pattern, 
   const EdgeTable& table = list.edge_tables[pattern.table];
   std::array<double, 3> all{1.0, 1.0, 1.0};
   for (std::uint32_t a = pattern.first; a < pattern.first + pattern.count; ++a) {
-    const double place = std::clamp((table.dark_beyond - list.bounds[list.active[a]].distance(at)) * table.per_step,
-                                    0.0, static_cast<double>(table.count) - 1.0);
-    const auto k = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(table.count) - 2);
+    const double stop_point =
+        std::clamp((table.dark_beyond - list.bounds[list.active[a]].distance(at)) * table.per_step, 0.0,
+                   static_cast<double>(table.count) - 1.0);
+    const auto k = std::min(static_cast<std::size_t>(stop_point), static_cast<std::size_t>(table.count) - 2);
     for (std::size_t c = 0; c < 3; ++c)
-      all[c] *= std::lerp(entry_of(list, table, k, c), entry_of(list, table, k + 1, c), place - static_cast<double>(k));
+      all[c] *=
+          std::lerp(entry_of(list, table, k, c), entry_of(list, table, k + 1, c), stop_point - static_cast<double>(k));
   }
   return all;
 }
@@ -120,7 +122,7 @@ std::array<double, 3> mean_of_samples(const At& at, const PolygonList& list, con
   std::array<double, 3> mean{};
   for (int k = 0; k < samples * samples; ++k) {
     const Vec2 off{(k % samples + 0.5) / samples - 0.5, (k / samples + 0.5) / samples - 0.5};
-    const auto one = at(list, pattern, pattern.map.place(pixel + off));
+    const auto one = at(list, pattern, pattern.map.stop_point(pixel + off));
     for (std::size_t c = 0; c < 3; ++c) mean[c] += one[c] / (samples * samples);
   }
   return mean;
@@ -139,8 +141,8 @@ double worst_difference(unsigned seed, const PatternOf& pattern_of, const At& at
     const auto corners = fuzz.ellipse(middle, size, k % 3 == 0 ? 0.05 : fuzz(0.3, 1.0), k % 4 == 1);
     Pattern pattern = pattern_of(list, middle, size);
     pattern.samples = 1 + static_cast<std::uint32_t>(k % 3);
-    list.add(corners, fuzz.shade(middle), pattern);
-    if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.shade(middle));  // by sums and by pixels
+    list.add(corners, fuzz.irradiance(middle), pattern);
+    if (k % 2 == 0) list.add(fuzz.ellipse(middle, 20.0, 1.0, false), fuzz.irradiance(middle));  // by sums and by pixels
     PlainImage plain(kPatternedWidth, kPatternedHeight);
     plain.add(list, [&](const Polygon& p, Vec2 pixel) {
       return p.pattern > 0 ? mean_of_samples(at, list, list.patterns[p.pattern - 1], pixel) : std::array{1.0, 1.0, 1.0};
@@ -176,8 +178,8 @@ std::vector<std::uint16_t> bounds_of(const IrisShape& iris) {
 // What a list holds can be copied to a device as it is.
 template <class... Element>
 constexpr bool kArePlain = (std::is_trivially_copyable_v<Element> && ...);
-static_assert(kArePlain<Point, Polygon, Shade, Pattern, IrisBound, EdgeTable, EdgeStep, WavelengthWeights, PixelSpan,
-                        TextureTable::Level, TextureTable::Pair>);
+static_assert(kArePlain<Point, Polygon, LinearIrradiance, Pattern, IrisBound, EdgeTable, EdgeStep, WavelengthWeights,
+                        PixelSpan, TextureTable::Level, TextureTable::Pair>);
 
 TEST_CASE("edges' fringes: the table's, at every pixel") {
   const auto iris = blades();
@@ -185,8 +187,8 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
   bool alone = false;
   SUBCASE("of several wavelengths") {}
   SUBCASE("of one") { alone = true; }
-  const auto band = alone ? grey(edges(iris), atlas) : edges(iris);
-  CHECK(band->is_grey() == alone);
+  const auto band = alone ? is_monochrome(edges(iris), atlas) : edges(iris);
+  CHECK(band->is_monochrome() == alone);
   const std::vector<std::uint16_t> all = bounds_of(*iris);
   const auto several = [&](PolygonList& list, Vec2 middle, double size) {
     return fringes(*band, list, all, map_about(middle, size, size));
@@ -198,7 +200,7 @@ TEST_CASE("edges' fringes: the table's, at every pixel") {
     Iris one;
     if (only == 1) one.blades = 6;
     const auto shape = std::make_shared<const IrisShape>(one);
-    const auto of_one = alone ? grey(edges(shape), atlas) : edges(shape);
+    const auto of_one = alone ? is_monochrome(edges(shape), atlas) : edges(shape);
     const std::array bound{static_cast<std::uint16_t>(shape->bounds().size() - 1)};
     const auto single = [&](PolygonList& list, Vec2 middle, double size) {
       return fringes(*of_one, list, bound, map_about(middle, size, size));
@@ -223,17 +225,17 @@ TEST_CASE("fringes along the outline of a picture as the iris: those of its dist
     CHECK(atlas.outline().distance(p) == shape->picture_distance(p));
   }
   PatternAtlas none;
-  const auto band = grey(edges(shape), none);
+  const auto band = is_monochrome(edges(shape), none);
   const auto pattern_of = [&](PolygonList& list, Vec2 middle, double size) {
     return fringes(*band, list, {}, map_about(middle, size, size));
   };
   const auto at = [&](const PolygonList& list, const Pattern& pattern, Vec2 stop) {
     const EdgeTable& table = list.edge_tables[pattern.table];
-    const double place = std::clamp((table.dark_beyond - shape->picture_distance(stop)) * table.per_step, 0.0,
-                                    static_cast<double>(table.count) - 1.0);
-    const auto k = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(table.count) - 2);
+    const double stop_point = std::clamp((table.dark_beyond - shape->picture_distance(stop)) * table.per_step, 0.0,
+                                         static_cast<double>(table.count) - 1.0);
+    const auto k = std::min(static_cast<std::size_t>(stop_point), static_cast<std::size_t>(table.count) - 2);
     const double factor =
-        std::lerp(entry_of(list, table, k, 0), entry_of(list, table, k + 1, 0), place - static_cast<double>(k));
+        std::lerp(entry_of(list, table, k, 0), entry_of(list, table, k + 1, 0), stop_point - static_cast<double>(k));
     return std::array{factor, factor, factor};
   };
   CHECK(worst_difference(9, pattern_of, at, &atlas) < 2e-4);
@@ -245,9 +247,9 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
   bool alone = false;
   SUBCASE("of several wavelengths") {}
   SUBCASE("of one") { alone = true; }
-  const auto band = alone ? grey(edges(iris), atlas) : edges(iris);
+  const auto band = alone ? is_monochrome(edges(iris), atlas) : edges(iris);
   const std::vector<std::uint16_t> all = bounds_of(*iris);
-  const Shade shade{{0.0F, 0.0F}, {1.0F, 2.0F, 3.0F, 0.0F}, {}, {}};
+  const LinearIrradiance irradiance{{0.0F, 0.0F}, {1.0F, 2.0F, 3.0F, 0.0F}, {}, {}};
   Fuzz fuzz(12);
   TileRasteriser used;
   // A frame whose width is not a multiple of the blocks, with a stop so large that the pattern is uniform over long
@@ -264,7 +266,7 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
         const float x0 = x(), x1 = x(), y0 = y(), y1 = y(),
                     tilt = p % 2 == 0 ? 0.0F : static_cast<float>(fuzz(-9.0, 9.0));
         const std::array corners{Point{x0, y0}, Point{x1, y0}, Point{x1 + tilt, y1}, Point{x0 + tilt, y1}};
-        list.add(corners, shade, pattern);
+        list.add(corners, irradiance, pattern);
       }
       // Beyond the right border, from the middle of a block on, up to the border and up to the last column; and what
       // the next row of tiles has in those columns.
@@ -274,9 +276,10 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
                                            {border - 9.3F, border, 0.0F, to},
                                            {border - 9.3F, border - 0.4F, 0.0F, to},
                                            {9.0F, 70.0F, to + 1.0F, to + 8.0F}})
-        list.add(std::array{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}, shade, pattern);
+        list.add(std::array{Point{x0, y0}, Point{x1, y0}, Point{x1, y1}, Point{x0, y1}}, irradiance, pattern);
       PlainImage plain(width, kPatternedHeight);
-      plain.add(list, [&](const Polygon&, Vec2 pixel) { return by_table(list, pattern, pattern.map.place(pixel)); });
+      plain.add(list,
+                [&](const Polygon&, Vec2 pixel) { return by_table(list, pattern, pattern.map.stop_point(pixel)); });
       const Image image = test::drawn(list, width, kPatternedHeight);
       CHECK(plain.difference(image) < 2e-4);
 
@@ -297,7 +300,7 @@ TEST_CASE("textures: each wavelength's own, in its part of the channels") {
   bool alone = false;
   SUBCASE("several") {}
   SUBCASE("one") { alone = true; }
-  const auto band = alone ? grey(patterns(iris, atlas), atlas) : patterns(iris, atlas);
+  const auto band = alone ? is_monochrome(patterns(iris, atlas), atlas) : patterns(iris, atlas);
   CHECK(band->texture->of_one() == alone);
   const auto pattern_of = [&](PolygonList& list, Vec2 middle, double size) {
     WavelengthWeights& weights = list.weights.emplace_back();
@@ -306,7 +309,7 @@ TEST_CASE("textures: each wavelength's own, in its part of the channels") {
   };
   const TextureTable& table = atlas.texture(band->texture->index());
   const TextureTable::Level& level = table.levels.front();
-  const auto packing = ShortLight::of_lowest(level.lowest);
+  const auto packing = PackedIrradiance::of_lowest(level.lowest);
   const auto sample = [&](int column, int row, std::size_t part) {
     if (column < 0 || row < 0 || column >= level.side || row >= level.side) return 0.0;
     const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
@@ -342,10 +345,11 @@ TEST_CASE("several crossings: the pattern at the last one, the sharp iris at tho
     const StopMap map(pixels_about(middle, size), std::array{stop_about(2.0 * size), stop_about(size)}, 0.2);
     const auto at = [&](Vec2 pixel) {
       std::array<StopPoint, kMaxStopCrossings> room;
-      return band->transmittance(map.places(pixel, room));
+      return band->transmittance(map.stop_points(pixel, room));
     };
     const int samples = 1 + k % 3;
-    list.add(corners, fuzz.shade(middle), pixel_pattern(corners, kPatternedWidth, kPatternedHeight, samples, at, list));
+    list.add(corners, fuzz.irradiance(middle),
+             pixel_pattern(corners, kPatternedWidth, kPatternedHeight, samples, at, list));
     PlainImage plain(kPatternedWidth, kPatternedHeight);
     plain.add(list, [&](const Polygon&, Vec2 pixel) {
       std::array<double, 3> mean{};

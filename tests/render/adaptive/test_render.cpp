@@ -79,7 +79,7 @@ std::vector<double> changes_of(const System& system) {
 
 }  // namespace
 
-// Systems that tests/render/all_methods does not have: other f-numbers, other places of the light, all presets.
+// Systems that tests/render/all_methods does not have: other f-numbers, other points of the light, all presets.
 TEST_CASE("closer to the reference with every preset, within its error or 50 dB of it [slow]") {
   for (const System& system :
        {System{"heliar", {.f_number = 16.0}, {0.62, 0.3}}, System{"heliar", {.f_number = 5.6}, {0.2, 0.71}},
@@ -136,7 +136,7 @@ TEST_CASE("frames taken at random are within the error asked for, all but a few 
   CHECK(over_asked.back() < 1.2);
 }
 
-TEST_CASE("ghosts that fall beside the frame leave it dark") {
+TEST_CASE("ghosts that fall outside the frame leave it dark") {
   const LensState lens = test::lens_at_f("nikon-80-200", 16.0, 140.0);
   test::Settings settings = settings_for(lens, 480, 270);
   settings.lambda_nm.clear();
@@ -284,7 +284,7 @@ TEST_CASE("every instruction set of this machine draws the same, with fringes, t
   hwy::SetSupportedTargetsForTest(0);
 }
 
-TEST_CASE("a ghost alone, of which nothing is seen when it is drawn without care") {
+TEST_CASE("a ghost alone, of which the preview shows nothing") {
   const LensState lens = test::bundled("tessar", {.f_number = 11.0});
   test::Settings settings;
   settings.wavelengths = 3;
@@ -392,7 +392,7 @@ TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corne
     return rows;
   };
   const std::vector<double> plain = outline(0.003), fine = outline(1e-4);
-  double most_off = 0.0;
-  for (std::size_t k = 0; k < plain.size(); ++k) most_off = std::max(most_off, std::abs(plain[k] - fine[k]));
-  CHECK(most_off < 1.2);  // pixels
+  double max_off = 0.0;
+  for (std::size_t k = 0; k < plain.size(); ++k) max_off = std::max(max_off, std::abs(plain[k] - fine[k]));
+  CHECK(max_off < 1.2);  // pixels
 }

@@ -16,7 +16,7 @@
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
-using test::Affine, test::AffineGhost, test::frame_px, test::kHeight, test::kWidth, test::painted;
+using test::Affine, test::AffineGhost, test::frame_px, test::kHeight, test::kWidth, test::tessellated;
 
 namespace {
 
@@ -26,7 +26,7 @@ double flux_of(const PolygonList& list, std::size_t channel) {
   for (const Polygon& p : list.polygons) {
     const auto corners = list.corners_of(p);
     if (corners.size() == 1) {
-      sum += list.shade_of(p).value[channel];
+      sum += list.irradiance_of(p).value[channel];
       continue;
     }
     Vec2 centre;
@@ -39,29 +39,29 @@ double flux_of(const PolygonList& list, std::size_t channel) {
     }
     if (area == 0.0) continue;
     centre = centre * (1.0 / area);
-    const Shade& shade = list.shade_of(p);
-    sum += std::abs(area) * (shade.value[channel] + shade.along_x[channel] * (centre.x - shade.at.x) +
-                             shade.along_y[channel] * (centre.y - shade.at.y));
+    const LinearIrradiance& irradiance = list.irradiance_of(p);
+    sum += std::abs(area) * (irradiance.value[channel] + irradiance.along_x[channel] * (centre.x - irradiance.at.x) +
+                             irradiance.along_y[channel] * (centre.y - irradiance.at.y));
   }
   return sum;
 }
 
-void check_flux(const AffineGhost& ghost, const Iris& iris, double share, double epsilon) {
-  const PolygonList list = painted(ghost, iris);
-  CHECK(flux_of(list, 1) == doctest::Approx(ghost.flux * share).epsilon(epsilon));
-  CHECK(flux_of(list, 0) == doctest::Approx(2.0 * ghost.flux * share).epsilon(epsilon));
+void check_flux(const AffineGhost& ghost, const Iris& iris, double fraction, double epsilon) {
+  const PolygonList list = tessellated(ghost, iris);
+  CHECK(flux_of(list, 1) == doctest::Approx(ghost.flux * fraction).epsilon(epsilon));
+  CHECK(flux_of(list, 0) == doctest::Approx(2.0 * ghost.flux * fraction).epsilon(epsilon));
   CHECK(flux_of(list, 2) == 0.0);
   const Image image = test::drawn(list, kWidth, kHeight);
-  CHECK(test::sum_of_channel(image, 1) == doctest::Approx(ghost.flux * share).epsilon(epsilon));
+  CHECK(test::sum_of_channel(image, 1) == doctest::Approx(ghost.flux * fraction).epsilon(epsilon));
 }
 
 }  // namespace
 
-TEST_CASE("nothing in the way: the box itself, level") {
+TEST_CASE("nothing blocks: the box itself, level") {
   AffineGhost ghost;
   ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
   check_flux(ghost, {}, 1.0, 1e-5);
-  const Image image = test::drawn(painted(ghost, {}), kWidth, kHeight);
+  const Image image = test::drawn(tessellated(ghost, {}), kWidth, kHeight);
   const double level = ghost.flux / (4.0 * ghost.pixels.determinant());
   for (const Vec2 uv : {Vec2{0, 0}, Vec2{-0.9, 0.8}, Vec2{0.9, 0.9}}) {
     const Vec2 p = ghost.pixels(uv);
@@ -74,8 +74,8 @@ TEST_CASE("without a limit to its error, too, a ghost within a rim that passes i
   AffineGhost ghost;
   ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
   ghost.rims = {{{1.2, 0.1}, {-0.2, 1.3}, {0.1, 0.0}}};
-  const double open = ghost.flux * ghost.open_share({});
-  CHECK(flux_of(painted(ghost, {}, std::numeric_limits<double>::infinity()), 1) / open ==
+  const double open = ghost.flux * ghost.open_fraction({});
+  CHECK(flux_of(tessellated(ghost, {}, std::numeric_limits<double>::infinity()), 1) / open ==
         doctest::Approx(1.0).epsilon(0.05));
 }
 
@@ -83,12 +83,12 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
   AffineGhost ghost;
   ghost.pixels = {{60.2, 11.0}, {-8.0, 45.3}, {160.0, 100.0}};
   ghost.stops = {{{1.2, 0.1}, {-0.2, 1.4}, {0.1, 0.0}}};
-  const PolygonList one = painted(ghost, {});
+  const PolygonList one = tessellated(ghost, {});
   ghost.weights = 3;
-  const PolygonList three = painted(ghost, {});
+  const PolygonList three = tessellated(ghost, {});
   REQUIRE(one.polygons.size() == three.polygons.size());
   for (std::size_t k = 0; k < one.polygons.size(); ++k) {
-    const Shade &a = one.shade_of(one.polygons[k]), &b = three.shade_of(three.polygons[k]);
+    const LinearIrradiance &a = one.irradiance_of(one.polygons[k]), &b = three.irradiance_of(three.polygons[k]);
     CHECK(one.corners_of(one.polygons[k]).size() == three.corners_of(three.polygons[k]).size());
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(a.value[c] == doctest::Approx(b.value[c]).epsilon(1e-6));
@@ -107,8 +107,8 @@ TEST_CASE("a round iris, or one of blades, leaves its own area") {
       ghost.nodes = nodes;
       ghost.pixels = {{60.0, 11.0}, {-8.0, 45.0}, {160.0, 100.0}};
       ghost.stops = {{{1.3, 0.2}, {-0.1, 1.25}, {0.05, -0.03}}};
-      const double share = kPi * iris_area_fraction(iris) / (4.0 * std::abs(ghost.stops[0].determinant()));
-      check_flux(ghost, iris, share, 1e-3);
+      const double fraction = kPi * iris_area_fraction(iris) / (4.0 * std::abs(ghost.stops[0].determinant()));
+      check_flux(ghost, iris, fraction, 1e-3);
     }
   }
 }
@@ -125,7 +125,7 @@ TEST_CASE("a ghost turned over carries what its mirror image carries") {
   }
 }
 
-TEST_CASE("an opening small beside a cell of the mesh, wherever it lies in it") {
+TEST_CASE("an opening small compared with a cell of the mesh, wherever it lies in it") {
   for (const double radius : {0.4, 0.2}) {  // of the box's half side; a mesh cell is 0.25
     for (const Vec2 middle : {Vec2{0, 0}, Vec2{0.125, 0.125}, Vec2{0.3, -0.55}, Vec2{0.26, 0.0}}) {
       CAPTURE(radius);
@@ -153,8 +153,8 @@ TEST_CASE("rims and several crossings cut what the iris leaves") {
     const Iris iris{6, 0.2};
     ghost.stops = {
         {{1.3, 0.0}, {0.0, 1.3}, {}}, {{1.2, 0.3}, {-0.3, 1.2}, {0.2, 0.1}}, {{-1.25, 0.0}, {0.0, 1.2}, {0.0, -0.2}}};
-    check_flux(ghost, iris, ghost.open_share(iris), 2e-3);
-    check_flux(ghost, {}, ghost.open_share({}), 2e-3);
+    check_flux(ghost, iris, ghost.open_fraction(iris), 2e-3);
+    check_flux(ghost, {}, ghost.open_fraction({}), 2e-3);
   }
 }
 
@@ -162,23 +162,23 @@ TEST_CASE("nothing passes: nothing is drawn; off the frame: nothing either") {
   AffineGhost ghost;
   ghost.pixels = {{60.0, 11.0}, {-8.0, 45.0}, {160.0, 100.0}};
   ghost.stops = {{{1.0, 0.0}, {0.0, 1.0}, {3.0, 0.0}}};
-  CHECK(painted(ghost, {}).polygons.empty());
-  CHECK(painted(ghost, {5, 0.0}).polygons.empty());
+  CHECK(tessellated(ghost, {}).polygons.empty());
+  CHECK(tessellated(ghost, {5, 0.0}).polygons.empty());
   ghost.stops.clear();
   ghost.rims = {{{0.1, 0.0}, {0.0, 0.1}, {0.0, 1.5}}};
-  CHECK(painted(ghost, {}).polygons.empty());
+  CHECK(tessellated(ghost, {}).polygons.empty());
   ghost.rims.clear();
   ghost.pixels.offset = {-200.0, 100.0};
-  CHECK(painted(ghost, {}).polygons.empty());
+  CHECK(tessellated(ghost, {}).polygons.empty());
 }
 
 TEST_CASE("a ghost across the frame's edge: the part on the frame") {
   AffineGhost ghost;
   ghost.pixels = {{50.0, 0.0}, {0.0, 40.0}, {0.0, 100.0}};
   ghost.stops = {{{1.1, 0.0}, {0.0, 1.1}, {}}};
-  const double share = kPi / (4.0 * 1.21);
-  CHECK(test::sum_of_channel(test::drawn(painted(ghost, {}), kWidth, kHeight), 1) ==
-        doctest::Approx(0.5 * ghost.flux * share).epsilon(1e-3));
+  const double fraction = kPi / (4.0 * 1.21);
+  CHECK(test::sum_of_channel(test::drawn(tessellated(ghost, {}), kWidth, kHeight), 1) ==
+        doctest::Approx(0.5 * ghost.flux * fraction).epsilon(1e-3));
 }
 
 TEST_CASE("an opening so small that no vertex of the mesh is in it") {
@@ -200,16 +200,16 @@ class FuzzedGhosts {
     const int k = count_++;
     AffineGhost ghost;
     ghost.nodes = std::array{2, 5, 9, 17}[static_cast<std::size_t>(k) % 4];
-    const double turn = between(0.0, 6.3);
+    const double rotation = between(0.0, 6.3);
     const double shear = between(-0.5, 0.5);
-    ghost.pixels = {Vec2{std::cos(turn), std::sin(turn)} * size_px,
-                    Vec2{shear - std::sin(turn), std::cos(turn)} * (size_px * flat),
+    ghost.pixels = {Vec2{std::cos(rotation), std::sin(rotation)} * size_px,
+                    Vec2{shear - std::sin(rotation), std::cos(rotation)} * (size_px * flat),
                     {between(140, 180), between(90, 110)}};
     const Iris iris{std::array{0, 5, 8}[static_cast<std::size_t>(k / 4) % 3], between(0.0, 1.0)};
-    const double stop_turn = between(0.0, 6.3);
+    const double stop_rotation = between(0.0, 6.3);
     const Vec2 scale = Vec2{1.0, between(0.7, 1.4)} * between(0.8, 2.5);
-    ghost.stops = {{{scale.x * std::cos(stop_turn), scale.x * std::sin(stop_turn)},
-                    {-scale.y * std::sin(stop_turn), scale.y * std::cos(stop_turn)},
+    ghost.stops = {{{scale.x * std::cos(stop_rotation), scale.x * std::sin(stop_rotation)},
+                    {-scale.y * std::sin(stop_rotation), scale.y * std::cos(stop_rotation)},
                     {between(-0.3, 0.3), between(-0.3, 0.3)}}};
     // Two nodes cannot represent a rim, whose height is squared.
     if (k % 5 == 0 && ghost.nodes > 2) ghost.rims = {{{1.2, 0.0}, {0.0, 1.0}, {between(-0.4, 0.4), 0.0}}};
@@ -224,17 +224,17 @@ class FuzzedGhosts {
 
 // Draws the ghost, checks that all pixels are finite and not negative, and returns the relative error of its flux.
 double light_off(const AffineGhost& ghost, const Iris& iris) {
-  const PolygonList list = painted(ghost, iris, 3e-3);
+  const PolygonList list = tessellated(ghost, iris, 3e-3);
   bool sound = true;
   for (const Polygon& p : list.polygons) {
-    for (const float v : list.shade_of(p).value) sound = sound && v >= 0.0F && std::isfinite(v);
+    for (const float v : list.irradiance_of(p).value) sound = sound && v >= 0.0F && std::isfinite(v);
   }
   const Image image = test::drawn(list, kWidth, kHeight);
   const double brightest = *std::max_element(image.pixels.begin(), image.pixels.end());
   for (const float v : image.pixels) sound = sound && std::isfinite(v) && v >= -1e-5 * brightest;
   CHECK(sound);
   CHECK(test::sum_of_channel(image, 1) / flux_of(list, 1) == doctest::Approx(1.0).epsilon(1e-4));
-  return std::abs(flux_of(list, 1) / (ghost.flux * ghost.open_share(iris, 400)) - 1.0);
+  return std::abs(flux_of(list, 1) / (ghost.flux * ghost.open_fraction(iris, 400)) - 1.0);
 }
 
 }  // namespace
@@ -250,22 +250,22 @@ TEST_CASE("any affine ghost keeps its light, from some pixels to most of the fra
 }
 
 // The largest relative error of the flux of ghosts smaller or thinner than some pixels.
-static double most_off_of_specks(bool with_rims) {
+static double max_off_of_points(bool with_rims) {
   FuzzedGhosts fuzz(29);
-  double most_off = 0.0;
+  double max_off = 0.0;
   for (int trial = 0; trial < 120; ++trial) {
     const double size_px = std::pow(10.0, fuzz.between(-3.0, 1.0));
     const auto [ghost, iris] = fuzz.next(size_px, trial % 3 == 0 ? std::pow(10.0, fuzz.between(-6.0, 0.0)) : 1.0);
-    if (ghost.rims.empty() != with_rims) most_off = std::max(most_off, light_off(ghost, iris));
+    if (ghost.rims.empty() != with_rims) max_off = std::max(max_off, light_off(ghost, iris));
   }
-  return most_off;
+  return max_off;
 }
 
 TEST_CASE("a ghost within a pixel, or thinner than one, keeps its light") {
   // Should be 1 per cent. Measured: 5.2 without rims, all above 1 in round irises and patches of 17 nodes; 1.9 with
   // rims.
-  CHECK(most_off_of_specks(false) < 0.06);
-  CHECK(most_off_of_specks(true) < 0.03);
+  CHECK(max_off_of_points(false) < 0.06);
+  CHECK(max_off_of_points(true) < 0.03);
 }
 
 TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter is drawn as its mean, and all of it") {
@@ -285,14 +285,14 @@ TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter
                          {1.0F, 1.0F, 1.0F}});
   band->texture = std::make_shared<const stop_patterns::BandTexture>(
       stop_patterns::texture_table(std::array<const stop_patterns::PatternTexture*, 1>{texture.get()}), atlas);
-  band->hull = texture->hull_above(1e-6, 0.0);
+  band->bounding_polygon = texture->bounding_polygon_above(1e-6, 0.0);
 
   AffineGhost ghost;
   ghost.pixels = {{90.0, 11.0}, {-8.0, 70.0}, {160.0, 100.0}};
   ghost.stops = {{{1.5, 0.1}, {0.0, 1.5}, {0.05, 0.0}}};
   const double level = 2.0 * ghost.flux / (4.0 * ghost.pixels.determinant());
-  const auto behind = [&](double unseen) {
-    band->unseen = unseen;
+  const auto behind = [&](double negligible_level) {
+    band->negligible_level = negligible_level;
     PolygonList list;
     const IrisShape iris{Iris{}};
     BoxCells room;

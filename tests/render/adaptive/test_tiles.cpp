@@ -19,10 +19,10 @@ std::vector<Point> rectangle(float x0, float y0, float x1, float y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
-Shade level(float value) {
-  Shade shade;
-  shade.value = {value, value, value};
-  return shade;
+LinearIrradiance level(float value) {
+  LinearIrradiance irradiance;
+  irradiance.value = {value, value, value};
+  return irradiance;
 }
 
 double plain_difference(const PolygonList& list, int width, int height) {
@@ -48,7 +48,7 @@ TEST_CASE("any convex polygon: its area in each pixel times the irradiance at th
       const double radius = std::pow(10.0, fuzz(-2.0, std::log10(1.5 * size.width + 2.0)));
       const double flat = k % 3 == 0 ? std::pow(10.0, fuzz(-5.0, -1.0)) : fuzz(0.2, 1.0);
       PolygonList list;
-      list.add(fuzz.ellipse(middle, radius, flat, k % 4 == 1), fuzz.shade(middle));
+      list.add(fuzz.ellipse(middle, radius, flat, k % 4 == 1), fuzz.irradiance(middle));
       CHECK(plain_difference(list, size.width, size.height) < 2e-6);
     }
   }
@@ -69,10 +69,10 @@ TEST_CASE("polygons along the borders of pixels, tiles and the frame") {
         std::vector<Point>{{kTile, 3}, {kTile, 30}, {kTile + 7, 16}},
         std::vector<Point>{{5, kRow}, {90, kRow}, {40, kRow + 2}}, std::vector<Point>{{0, 3}, {0, 30}, {-7, 16}}}) {
     PolygonList list;
-    Shade shade = level(1.0F);
-    shade.along_x = {0.01F, 0.0F, -0.02F};
-    shade.along_y = {0.0F, 0.03F, 0.01F};
-    list.add(corners, shade);
+    LinearIrradiance irradiance = level(1.0F);
+    irradiance.along_x = {0.01F, 0.0F, -0.02F};
+    irradiance.along_y = {0.0F, 0.03F, 0.01F};
+    list.add(corners, irradiance);
     CHECK(plain_difference(list, width, height) < 2e-6);
   }
 }
@@ -86,9 +86,9 @@ TEST_CASE("a point's light is in the pixel that holds it, or nowhere") {
   for (const Point p :
        {Point{0, 0}, Point{255.99F, 3}, Point{256, 3}, Point{256.5F, 15.99F}, Point{7.5F, 16}, Point{w, 3}, Point{3, h},
         Point{-0.001F, 5}, Point{5, -0.001F}, Point{1e9F, 2}, Point{w - 0.01F, h - 0.01F}}) {
-    Shade shade = level(2.0F);
-    shade.at = p;
-    list.add({&p, 1}, shade);
+    LinearIrradiance irradiance = level(2.0F);
+    irradiance.at = p;
+    list.add({&p, 1}, irradiance);
   }
   CHECK(plain_difference(list, width, height) == 0.0);
   CHECK(test::sum_of_channel(test::drawn(list, width, height), 0) == 6 * 2.0);
@@ -103,13 +103,13 @@ TEST_CASE("many polygons: the sum of each, whatever lists they come in") {
   for (int k = 0; k < 200; ++k) {
     const Vec2 middle{fuzz(-20, kWidth + 20), fuzz(-9, kHeight + 9)};
     auto corners = fuzz.ellipse(middle, std::pow(10.0, fuzz(-1.0, 1.7)), fuzz(0.01, 1.0), false);
-    Shade shade = fuzz.shade(middle);
+    LinearIrradiance irradiance = fuzz.irradiance(middle);
     if (k % 10 == 0) {  // a point has no slope
       corners.resize(1);
-      shade = level(shade.value[0]);
+      irradiance = level(irradiance.value[0]);
     }
-    all.add(corners, shade);
-    parts[static_cast<std::size_t>(k / 60)].add(corners, shade);
+    all.add(corners, irradiance);
+    parts[static_cast<std::size_t>(k / 60)].add(corners, irradiance);
   }
   parts.insert(parts.begin() + 2, PolygonList{});
   PlainImage plain(kWidth, kHeight);
@@ -133,7 +133,7 @@ TEST_CASE(
   PolygonList list;
   const auto top = static_cast<float>(2 * TileGrid::kHeight + 5), left = static_cast<float>(TileGrid::kWidth + 90);
   list.add(std::array{Point{left, top}, Point{left + 580, top + 9}, Point{left + 300, top + 80}},
-           Shade{{10, top}, {1.0F, 2.0F, 3.0F}, {}, {}});
+           LinearIrradiance{{10, top}, {1.0F, 2.0F, 3.0F}, {}, {}});
   TileRasteriser rasteriser;
   const auto batch = rasteriser.new_batch(width, height, nullptr);
   batch->extend(1);
@@ -162,7 +162,7 @@ TEST_CASE("tiles right of a caustic of ten million times the level around it do 
   const int width = 4 * TileGrid::kWidth, height = 3;
   PolygonList list;
   list.add(rectangle(-1, -1, static_cast<float>(width), 4), level(1.0F));
-  Shade bright = level(1e7F);
+  LinearIrradiance bright = level(1e7F);
   bright.at = {300.0F, 1.0F};
   bright.along_x = {1e6F, -1e6F, 3e5F};
   list.add({{Point{297.3F, 0.1F}, Point{304.1F, 0.4F}, Point{301.7F, 2.9F}}}, bright);
@@ -219,21 +219,21 @@ TEST_CASE("edges that neighbours share are drawn once, and nothing else changes"
       const std::size_t at = y * (kCells + 1) + x;
       std::vector<Point> cell{net[at], net[at + 1], net[at + kCells + 2], net[at + kCells + 1]};
       if ((x + y) % 3 == 0) std::reverse(cell.begin(), cell.end());
-      list.add(cell, fuzz.shade({cell[0].x, cell[0].y}));
+      list.add(cell, fuzz.irradiance({cell[0].x, cell[0].y}));
     }
   }
   const Image apart = test::drawn(list, width, height);
   share_edges(list, width, height);
-  const auto shared = std::count(list.partner.begin(), list.partner.end(), PolygonList::kNotDrawn);
+  const auto shared = std::count(list.neighbour.begin(), list.neighbour.end(), PolygonList::kSkipped);
   CHECK(shared > kCells * kCells / 3);
-  CHECK(std::count(list.partner.begin(), list.partner.end(), PolygonList::kAlone) > 4 * kCells);
+  CHECK(std::count(list.neighbour.begin(), list.neighbour.end(), PolygonList::kUnshared) > 4 * kCells);
   const Image together = test::drawn(list, width, height);
-  double most = 0.0, worst = 0.0;
+  double largest = 0.0, worst = 0.0;
   for (std::size_t k = 0; k < apart.pixels.size(); ++k) {
-    most = std::max(most, std::abs(static_cast<double>(apart.pixels[k])));
+    largest = std::max(largest, std::abs(static_cast<double>(apart.pixels[k])));
     worst = std::max(worst, std::abs(static_cast<double>(apart.pixels[k]) - together.pixels[k]));
   }
-  CHECK(worst < 1e-6 * most);
+  CHECK(worst < 1e-6 * largest);
 }
 
 TEST_CASE("a tile lists the polygons that touch it, in their order, and none that do not") {

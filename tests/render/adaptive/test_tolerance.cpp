@@ -19,20 +19,20 @@ namespace {
 constexpr int kNodes = 5;
 
 // The rays of a pupil of 2 x 2 mm about the axis, all of which get through.
-RaySheet sheet_of(const std::function<Vec2(Vec2)>& sensor_mm) {
-  RaySheet sheet;
-  sheet.nodes = kNodes;
-  sheet.box = {{-1.0, -1.0}, {1.0, 1.0}};
+LobattoRays rays_of(const std::function<Vec2(Vec2)>& sensor_mm) {
+  LobattoRays ray_set;
+  ray_set.nodes = kNodes;
+  ray_set.box = {{-1.0, -1.0}, {1.0, 1.0}};
   const auto points = lobatto_points(kNodes);
   for (const double y : points) {
     for (const double x : points) {
       const Vec2 at = sensor_mm({x, y});
-      sheet.sensor_x_mm.push_back(static_cast<float>(at.x));
-      sheet.sensor_y_mm.push_back(static_cast<float>(at.y));
-      sheet.r_rel.push_back(0.5F);
+      ray_set.sensor_x_mm.push_back(static_cast<float>(at.x));
+      ray_set.sensor_y_mm.push_back(static_cast<float>(at.y));
+      ray_set.relative_height.push_back(0.5F);
     }
   }
-  return sheet;
+  return ray_set;
 }
 
 Frame frame_of_small_pixels() {
@@ -43,22 +43,22 @@ Frame frame_of_small_pixels() {
 
 constexpr double kLight = 1e-6;  // flux per mm^2 of the pupil
 
-Tolerance within(const RaySheet& sheet, const ErrorBudget& budget) {
-  return tolerance_for(sheet, kLight, 1.0, frame_of_small_pixels(), budget);
+Tolerance within(const LobattoRays& ray_set, const ErrorBudget& budget) {
+  return tolerance_for(ray_set, kLight, 1.0, frame_of_small_pixels(), budget);
 }
-Tolerance of(const RaySheet& sheet) { return within(sheet, {1e-8, 1.0}); }
+Tolerance of(const LobattoRays& ray_set) { return within(ray_set, {1e-8, 1.0}); }
 
 }  // namespace
 
 TEST_CASE("an even ghost may be displaced by its squared error over twice the light along its edges") {
   // 2 x 2 mm of the pupil over 400 x 400 pixels.
-  const Tolerance t = of(sheet_of([](Vec2 p) { return p * 2.0; }));
+  const Tolerance t = of(rays_of([](Vec2 p) { return p * 2.0; }));
   const double level = 4e-6 / (400.0 * 400.0);
   CHECK(t.level / level == doctest::Approx(1.0).epsilon(1e-6));
   const double error = 0.3 * 1e-4 / level;
   CHECK(t.weight == doctest::Approx(std::min(0.5, error / 400.0)));
   CHECK(t.position_px == doctest::Approx(0.05 * 400.0 + 0.5));  // not larger, whatever is allowed
-  const Tolerance strict = within(sheet_of([](Vec2 p) { return p * 2.0; }), {1e-19, 1.0});
+  const Tolerance strict = within(rays_of([](Vec2 p) { return p * 2.0; }), {1e-19, 1.0});
   const double little = 0.3 * std::sqrt(1e-19) / level;
   CHECK(strict.position_px == doctest::Approx(little / (2.0 * 20.0)));
   CHECK(strict.weight == doctest::Approx(little / 400.0));
@@ -66,25 +66,25 @@ TEST_CASE("an even ghost may be displaced by its squared error over twice the li
 
 TEST_CASE("rays that are flung far away beyond a rim loosen nothing") {
   const auto even = [](Vec2 p) { return p * 2.0; };
-  RaySheet flung = sheet_of(even);
+  LobattoRays flung = rays_of(even);
   for (std::size_t k = 0; k < flung.count(); ++k) {
     if (k % kNodes < 3) continue;
-    flung.r_rel[k] = 1.5F;
+    flung.relative_height[k] = 1.5F;
     if (k % kNodes == 4) flung.sensor_x_mm[k] *= 1000.0F;
   }
-  CHECK(of(flung).level / of(sheet_of(even)).level == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(of(flung).level / of(rays_of(even)).level == doctest::Approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("a ghost most of whose light gathers is held to the level there") {
-  const double level = of(sheet_of([](Vec2 p) { return p * 2.0; })).level;
+  const double level = of(rays_of([](Vec2 p) { return p * 2.0; })).level;
   // The left half of the pupil on a tenth of its width.
-  const Tolerance gathered = of(sheet_of([](Vec2 p) { return Vec2{p.x < 0.0 ? 0.2 * p.x : 2.0 * p.x, 2.0 * p.y}; }));
+  const Tolerance gathered = of(rays_of([](Vec2 p) { return Vec2{p.x < 0.0 ? 0.2 * p.x : 2.0 * p.x, 2.0 * p.y}; }));
   CHECK(gathered.level / level == doctest::Approx(0.5 * (1.0 + 10.0)).epsilon(1e-5));
 }
 
 TEST_CASE("where no ray tells where a ghost lies, a small frame does") {
-  RaySheet failed = sheet_of([](Vec2 p) { return p * 2.0; });
-  std::fill(failed.r_rel.begin(), failed.r_rel.end(), std::numeric_limits<float>::infinity());
+  LobattoRays failed = rays_of([](Vec2 p) { return p * 2.0; });
+  std::fill(failed.relative_height.begin(), failed.relative_height.end(), std::numeric_limits<float>::infinity());
   CHECK(of(failed).level / 4e-6 == doctest::Approx(1.0));  // all of it in one pixel
   const auto about = [&](double level, double area_px) {
     return tolerance_for(failed, 1.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0, {level, area_px}});
@@ -93,9 +93,9 @@ TEST_CASE("where no ray tells where a ghost lies, a small frame does") {
   CHECK(about(1e-7, 400.0 * 400.0).position_px > 100.0 * about(0.0, 0.0).position_px);
 }
 
-TEST_CASE("colours of what is seen beside the peak stay within a fiftieth of a ghost's size, or a pixel") {
+TEST_CASE("colours visible next to the peak stay within a fiftieth of a ghost's size, or a pixel") {
   const auto colour_px = [](double size, double peak) {
-    return tolerance_for(sheet_of([&](Vec2 p) { return p * size; }), 1e-6, 1.0, frame_of_small_pixels(), {1e-8, peak})
+    return tolerance_for(rays_of([&](Vec2 p) { return p * size; }), 1e-6, 1.0, frame_of_small_pixels(), {1e-8, peak})
         .colour_px;
   };
   const double level = 4e-6 / (400.0 * 400.0);  // of a ghost of 400 x 400 pixels
@@ -105,17 +105,17 @@ TEST_CASE("colours of what is seen beside the peak stay within a fiftieth of a g
 }
 
 TEST_CASE("without a limit light may be off by a fiftieth of a ghost's size; without light anything will do") {
-  const RaySheet sheet = sheet_of([](Vec2 p) { return p; });
-  const Tolerance careless = within(sheet, {HUGE_VAL, 1.0});
-  CHECK(careless.position_px == doctest::Approx(0.02 * 200.0 + 0.5));
-  CHECK(std::min(careless.stop, careless.weight) > 1e6);
-  CHECK(tolerance_for(sheet, 0.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0}).position_px > 1e6);
+  const LobattoRays ray_set = rays_of([](Vec2 p) { return p; });
+  const Tolerance preview_shift = within(ray_set, {HUGE_VAL, 1.0});
+  CHECK(preview_shift.position_px == doctest::Approx(0.02 * 200.0 + 0.5));
+  CHECK(std::min(preview_shift.stop, preview_shift.weight) > 1e6);
+  CHECK(tolerance_for(ray_set, 0.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0}).position_px > 1e6);
 }
 
-TEST_CASE("light that is known to gather where no ray looks is held as near as if rays had shown it") {
-  const RaySheet sheet = sheet_of([](Vec2 p) { return p * 2.0; });
+TEST_CASE("light that is known to focus between rays has the tolerance that rays there would give") {
+  const LobattoRays ray_set = rays_of([](Vec2 p) { return p * 2.0; });
   const double level = 4.0 * kLight / (400.0 * 400.0);
-  const auto t = [&](const Spread& about) { return within(sheet, {1e-19, 1.0, about}); };
+  const auto t = [&](const LevelEstimate& about) { return within(ray_set, {1e-19, 1.0, about}); };
   CHECK(t({0.5 * level, 100.0}).position_px == t({}).position_px);  // dimmer than the rays show: the rays count
   const Tolerance gathered = t({8.0 * level, 900.0});
   const double error = 0.3 * std::sqrt(1e-19) / (8.0 * level);

@@ -53,7 +53,7 @@ FirstRays first_rays_of(Rainbow& rainbow, const Rectangle& box, const Frame& fra
   return first_rays_within(budget, rainbow.tracers, rainbow.samples, box, frame);
 }
 
-const Vec3 kAside{std::sin(0.2), 0.0, std::cos(0.2)};
+const Vec3 kOffset{std::sin(0.2), 0.0, std::cos(0.2)};
 
 }  // namespace
 
@@ -76,10 +76,10 @@ TEST_CASE("Leja's order begins with the ends and leaves out what is there alread
   CHECK(WavelengthSamples(std::vector<double>{}, 9).size() == 0);
 }
 
-TEST_CASE("polynomials in 1 / lambda^2 are told exactly, others are not") {
+TEST_CASE("polynomials in 1 / lambda^2 are predicted exactly, others are not") {
   const std::vector<double> lambda_nm = evenly(380.0, 780.0, 31);
   const WavelengthSamples samples(lambda_nm, 5);
-  const auto told = [&](auto of, std::size_t at) {
+  const auto predicted = [&](auto of, std::size_t at) {
     const std::vector<double> factors = samples.factors(5, at);
     double sum = 0.0;
     for (std::size_t k = 0; k < factors.size(); ++k) sum += factors[k] * of(lambda_nm[samples[k]]);
@@ -90,18 +90,18 @@ TEST_CASE("polynomials in 1 / lambda^2 are told exactly, others are not") {
     return 3.0 - s + 2.0 * s * s - 0.5 * s * s * s + 0.1 * s * s * s * s;
   };
   for (std::size_t k = 0; k < lambda_nm.size(); ++k)
-    CHECK(told(quartic, k) == doctest::Approx(quartic(lambda_nm[k])).epsilon(1e-12));
+    CHECK(predicted(quartic, k) == doctest::Approx(quartic(lambda_nm[k])).epsilon(1e-12));
   const auto narrow = [](double lambda) { return std::exp(-0.5 * std::pow((lambda - 550.0) / 20.0, 2.0)); };
   double worst = 0.0;
   for (std::size_t k = 0; k < lambda_nm.size(); ++k)
-    worst = std::max(worst, std::abs(told(narrow, k) - narrow(lambda_nm[k])));
+    worst = std::max(worst, std::abs(predicted(narrow, k) - narrow(lambda_nm[k])));
   CHECK(worst > 0.1);
 }
 
 TEST_CASE("few wavelengths tell the transmissions of sixteen") {
   for (const Ghost ghost : {Ghost{3, 4}, Ghost{1, 2}, Ghost{7, 9}}) {
     CAPTURE(ghost.i);
-    Rainbow rainbow("heliar", 16.0, ghost, kAside);
+    Rainbow rainbow("heliar", 16.0, ghost, kOffset);
     REQUIRE_FALSE(rainbow.scene.boxes.empty());
     const Rectangle& box = rainbow.scene.boxes.front();
     const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
@@ -116,40 +116,40 @@ TEST_CASE("few wavelengths tell the transmissions of sixteen") {
       if (allowed == 1e150) CHECK(traced <= 9);
       before = traced;
       for (std::size_t k = 0; k < 16; ++k) {
-        const RaySheet sheet = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
-        const float most = *std::max_element(sheet.transmission.begin(), sheet.transmission.end());
-        double told = 0.0, traced_light = 0.0;
-        for (std::size_t node = 0; node < sheet.count(); ++node) {
-          CHECK(std::abs(rays.transmission[k][node] - sheet.transmission[node]) <=
-                (allowed > 1.0 ? 0.12 : 0.03) * most);
-          told += rays.transmission[k][node];
-          traced_light += sheet.transmission[node];
+        const LobattoRays ray_set = rainbow.tracers.at(k).trace(box, 5, PacketPrecision::Double);
+        const float largest = *std::max_element(ray_set.transmission.begin(), ray_set.transmission.end());
+        double predicted = 0.0, traced_light = 0.0;
+        for (std::size_t node = 0; node < ray_set.count(); ++node) {
+          CHECK(std::abs(rays.transmission[k][node] - ray_set.transmission[node]) <=
+                (allowed > 1.0 ? 0.12 : 0.03) * largest);
+          predicted += rays.transmission[k][node];
+          traced_light += ray_set.transmission[node];
         }
-        CHECK(told == doctest::Approx(traced_light).epsilon(0.008));
+        CHECK(predicted == doctest::Approx(traced_light).epsilon(0.008));
       }
     }
   }
 }
 
-TEST_CASE("bands told by samples have the patches of rays traced at their wavelengths") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+TEST_CASE("bands predicted from samples have the patches of rays traced at their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Rectangle& box = rainbow.scene.boxes.front();
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   std::vector<Band> bands;
   for (std::size_t k = 0; k < 16; ++k) bands.push_back({k, k + 1});
   const FirstRays rays = first_rays_of(rainbow, box, frame, kSome);
   REQUIRE(rays.samples > 0);
-  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
-  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
-  told.add_weights(sheets, PacketPrecision::Double);
-  const std::vector<Patch> patches = told.make_patches(sheets, frame);
+  BandSet predicted(rainbow.tracers, rainbow.samples, rays, bands);
+  std::vector<LobattoRays> ray_sets = predicted.trace(box, 9, PacketPrecision::Double);
+  predicted.add_weights(ray_sets, PacketPrecision::Double);
+  const std::vector<Patch> patches = predicted.make_patches(ray_sets, frame);
   REQUIRE(patches.size() == rays.samples);
   for (std::size_t k = 0; k < 16; ++k) {
     CAPTURE(k);
     Patch patch;
-    told.band_patch(patches, k, patch);
+    predicted.band_patch(patches, k, patch);
     BandSet alone(rainbow.tracers, bands[k]);
-    std::vector<RaySheet> one = alone.trace(box, 9, PacketPrecision::Double);
+    std::vector<LobattoRays> one = alone.trace(box, 9, PacketPrecision::Double);
     alone.add_weights(one, PacketPrecision::Double);
     const Patch traced = alone.make_patches(one, frame).front();
     CHECK(patch.layout.weights == 1);
@@ -168,17 +168,17 @@ TEST_CASE("bands told by samples have the patches of rays traced at their wavele
 }
 
 TEST_CASE("a band of several wavelengths carries the light of all, in each channel") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Rectangle& box = rainbow.scene.boxes.front();
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   const std::vector<Band> bands{{0, 5}, {5, 16}};
   const FirstRays rays = first_rays_of(rainbow, box, frame, kSome);
   REQUIRE(rays.samples > 0);
-  BandSet told(rainbow.tracers, rainbow.samples, rays, bands);
-  std::vector<RaySheet> sheets = told.trace(box, 9, PacketPrecision::Double);
-  told.add_weights(sheets, PacketPrecision::Double);
+  BandSet predicted(rainbow.tracers, rainbow.samples, rays, bands);
+  std::vector<LobattoRays> ray_sets = predicted.trace(box, 9, PacketPrecision::Double);
+  predicted.add_weights(ray_sets, PacketPrecision::Double);
   Patch patch;
-  told.band_patch(told.make_patches(sheets, frame), 1, patch);
+  predicted.band_patch(predicted.make_patches(ray_sets, frame), 1, patch);
   REQUIRE(patch.layout.weights == 3);
   std::vector<std::array<double, 3>> sum(patch.size());
   for (std::size_t pass = 5; pass < 16; ++pass) {
@@ -193,22 +193,22 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
 }
 
 TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Rectangle& box = rainbow.scene.boxes.front();
   BandSet alone(rainbow.tracers, Band{2, 11, {}});
-  std::vector<RaySheet> sheets = alone.trace(box, 5, PacketPrecision::Double);
-  alone.add_weights(sheets, PacketPrecision::Double);
-  REQUIRE(sheets.size() == 1);
-  REQUIRE(sheets.front().weight.size() == 3);
+  std::vector<LobattoRays> ray_sets = alone.trace(box, 5, PacketPrecision::Double);
+  alone.add_weights(ray_sets, PacketPrecision::Double);
+  REQUIRE(ray_sets.size() == 1);
+  REQUIRE(ray_sets.front().weight.size() == 3);
   for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double> sum(sheets.front().count());
+    std::vector<double> sum(ray_sets.front().count());
     for (std::size_t pass = 2; pass < 11; ++pass) {
       const std::vector<float> light = rainbow.tracers.at(pass).transmissions(box, 5, PacketPrecision::Double);
       for (std::size_t node = 0; node < sum.size(); ++node)
         sum[node] += rainbow.tracers.passes()[pass].gain[c] * light[node];
     }
     for (std::size_t node = 0; node < sum.size(); ++node)
-      CHECK(sheets.front().weight[c][node] == doctest::Approx(sum[node]).epsilon(1e-5));
+      CHECK(ray_sets.front().weight[c][node] == doctest::Approx(sum[node]).epsilon(1e-5));
   }
 }
 
@@ -223,7 +223,7 @@ double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
       const double left = pixel + (offset + 0.5) / kOffsets;
       const auto right_of = [&](double edge_px) { return std::clamp(left + 1.0 - edge_px, 0.0, 1.0); };
       double off = 0.0;
-      for (const SpectralEdge& edge : edges) off += edge.light * (right_of(edge.place_px) - right_of(drawn_px));
+      for (const SpectralEdge& edge : edges) off += edge.light * (right_of(edge.position_px) - right_of(drawn_px));
       sum += off * off / kOffsets;
     }
   }
@@ -232,7 +232,7 @@ double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
 
 }  // namespace
 
-TEST_CASE("edges drawn at one place are as wrong as counted pixel by pixel") {
+TEST_CASE("edges drawn at one position are as wrong as counted pixel by pixel") {
   const std::vector<SpectralEdge> far{{-4.3, 0.2}, {-1.1, 0.1}, {0.4, 0.3}, {2.0, 0.15}, {5.5, 0.25}};
   const std::vector<SpectralEdge> near{{-0.21, 0.2}, {-0.05, 0.5}, {0.3, 0.3}};
   for (const auto& edges : {far, near}) {
@@ -240,13 +240,13 @@ TEST_CASE("edges drawn at one place are as wrong as counted pixel by pixel") {
       CHECK(band_error(edges, drawn_px) == doctest::Approx(counted_error(edges, drawn_px)).epsilon(2e-3));
   }
   // Displacements of less than a pixel cancel about the middle of the light.
-  CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().place_px));
+  CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().position_px));
   const std::vector<SpectralEdge> one{{3.0, 1.0}};
   CHECK(band_error(one, 3.0) == 0.0);
 }
 
-TEST_CASE("told bands are seen at the middle of their light, traced ones at one of their wavelengths") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+TEST_CASE("predicted bands are drawn at the middle of their light, traced ones at one of their wavelengths") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   rays.tolerance.position_px = 1.0;
@@ -264,7 +264,7 @@ TEST_CASE("told bands are seen at the middle of their light, traced ones at one 
 }
 
 TEST_CASE("bands hold every wavelength once, more of them the less may be wrong") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   const auto bands_within = [&](double tolerance_px) {
@@ -287,7 +287,7 @@ TEST_CASE("bands hold every wavelength once, more of them the less may be wrong"
 }
 
 TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart than colours allow") {
-  Rainbow rainbow("heliar", 16.0, {3, 4}, kAside);
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
   FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
   rays.tolerance.position_px = 1e6;
@@ -295,11 +295,11 @@ TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart
     rays.tolerance.colour_px = colour_px;
     return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm).size();
   };
-  const RaySheet first = rainbow.tracers.at(0).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
-  const RaySheet last = rainbow.tracers.at(15).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  const LobattoRays first = rainbow.tracers.at(0).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
+  const LobattoRays last = rainbow.tracers.at(15).trace(rainbow.scene.boxes.front(), 5, PacketPrecision::Double);
   double spread_px = 0.0;
   for (std::size_t k = 0; k < first.count(); ++k)
-    if (std::max(first.r_rel[k], last.r_rel[k]) < 1.2F)
+    if (std::max(first.relative_height[k], last.relative_height[k]) < 1.2F)
       spread_px = std::max(spread_px, std::hypot(first.sensor_x_mm[k] - last.sensor_x_mm[k],
                                                  first.sensor_y_mm[k] - last.sensor_y_mm[k]) /
                                           frame.pixel_pitch_mm);

@@ -38,11 +38,11 @@ std::shared_ptr<const DirtPicture> quarter_picture() {
   return *picture;
 }
 
-double share_at(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
-  double share = 1.0;
+double transmittance_at(const std::vector<DirtStroke>& strokes, Vec2 point_mm) {
+  double transmittance = 1.0;
   for (const DirtStroke& s : strokes)
-    if (s.distance_mm(place_mm) < 0.0) share *= 1.0 - s.opacity;
-  return share;
+    if (s.distance_mm(point_mm) < 0.0) transmittance *= 1.0 - s.opacity;
+  return transmittance;
 }
 
 // Calls body(middle) for kSub x kSub points of a pixel.
@@ -93,7 +93,7 @@ TEST_CASE("a plate's ghost has the shadows of its dirt where it lies, and loses 
     for (int k = 0; k < kSide * kSide; ++k) {
       expected.push_back(mean_over_pixel(k % kSide, k / kSide, [&](Vec2 pixel) {
         const Vec2 at = settings.frame.sensor_from_pixel(pixel);
-        return length(at) <= kPlateRadius_mm ? share_at(strokes, at) : 0.0;
+        return length(at) <= kPlateRadius_mm ? transmittance_at(strokes, at) : 0.0;
       }));
       passed += expected.back() * 0.08 * 0.08 / area_mm2;
     }
@@ -139,7 +139,7 @@ TEST_CASE("ghosts of a lens lose what dirt blocks, and every renderer shows it w
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_exact) return;
       Bounds asked = bounds;
-      asked.psnr_db = std::min(bounds.psnr_db, 50.0);  // bundle: places are linear over the cells of a grid of 128
+      asked.psnr_db = std::min(bounds.psnr_db, 50.0);  // bundle: points are linear over the cells of a grid of 128
       check_against(truth, image_of(bounds, s.dirty, s.light, s.frame), asked);
     });
   }
@@ -234,23 +234,23 @@ TEST_CASE("shadows of the front lie where rays through the front say [slow]") {
     const auto index = static_cast<std::size_t>(pixel.y) * 72 + static_cast<std::size_t>(pixel.x);
     const Vec2 front = at + Vec2{direction.x, direction.y} * (-window.z_mm / direction.z);
     all[index] += ray.transmission;
-    passed[index] += ray.transmission * share_at(strokes, front);
+    passed[index] += ray.transmission * transmittance_at(strokes, front);
   }
   for_each_method([&](const Bounds& bounds) {
     const Image lit = image_of(bounds, s.clean, s.light, s.frame), dark = image_of(bounds, s.dirty, s.light, s.frame);
-    double squares = 0.0, flux = 0.0, flux_passed = 0.0;
+    double squares = 0.0, flux = 0.0, flux_transmitted = 0.0;
     int counted = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
       flux += all[k];
-      flux_passed += passed[k];
+      flux_transmitted += passed[k];
       if (!(lit.pixels[3 * k + 1] > 0.2 * peak_of(lit)) || !(all[k] > 0.0)) continue;
       squares += std::pow(dark.pixels[3 * k + 1] / lit.pixels[3 * k + 1] - passed[k] / all[k], 2.0);
       ++counted;
     }
     REQUIRE(counted > 30);
-    CHECK(flux_passed < 0.95 * flux);
+    CHECK(flux_transmitted < 0.95 * flux);
     CHECK(std::sqrt(squares / counted) < (bounds.traits.integrates_pixels ? 0.05 : 0.1));
-    CHECK(sum(dark) / sum(lit) == doctest::Approx(flux_passed / flux).epsilon(0.01));
+    CHECK(sum(dark) / sum(lit) == doctest::Approx(flux_transmitted / flux).epsilon(0.01));
   });
 }
 
@@ -259,7 +259,7 @@ TEST_CASE("without dirt the same bits as ever; threads do not matter") {
   for_each_method([&](const Bounds& bounds) {
     if (bounds.traits.is_exact) return;
     LensState none = s.clean;
-    none.dirt = Dirt{.dust_per_cm2 = 100.0, .opacity = 0.0, .seed = 4, .time = 0.2};
+    none.dirt = Dirt{.dust_per_cm2 = 100.0, .opacity = 0.0, .seed = 4, .phase = 0.2};
     const auto expected = image_of(bounds, s.clean, s.light, s.frame).pixels;
     CHECK(image_of(bounds, none, s.light, s.frame).pixels == expected);
     const auto lights = std::span(&s.light, 1);
@@ -273,8 +273,8 @@ TEST_CASE("without dirt the same bits as ever; threads do not matter") {
 TEST_CASE("shadows wander smoothly and come back") {
   for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {
     LensScene s = heliar_scene(some_dirt(plane));
-    const auto at = [&](double time) {
-      s.dirty.dirt.time = time;
+    const auto at = [&](double phase) {
+      s.dirty.dirt.phase = phase;
       return image_of(bounds_of("adaptive"), s.dirty, s.light, s.frame);
     };
     const Image start = at(0.25);

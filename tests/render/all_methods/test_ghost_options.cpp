@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "render/all_methods/methods.h"
-#include "render/planning/ghost_look.h"
+#include "render/planning/applied_adjustment.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -57,7 +57,7 @@ TEST_CASE("everything off, said or not, is the same to the last bit") {
   test::Settings said = s.settings;
   said.ghosts.ramp = {{-1.0, {1, 1, 1}}, {1.0, {1, 1, 1}}};
   said.ghosts.adjustments = {{.ghost = {1, 2}}, {.ghost = {2, 3}}};
-  said.ghosts.scatter_seed = 7;
+  said.ghosts.jitter_seed = 7;
   for_each_method([&](const Bounds& bounds) {
     CHECK(image_of(bounds, s.lens, s.light, said).pixels == image_of(bounds, s.lens, s.light, s.settings).pixels);
   });
@@ -84,24 +84,24 @@ TEST_CASE("an offset moves a ghost by so many pixels, to the right and up") {
   });
 }
 
-TEST_CASE("first-order places are where chief rays of ghosts land") {
+TEST_CASE("first-order positions are those at which chief rays of ghosts land") {
   for (const char* name : {"heliar", "planar-50", "canon-70-200"}) {
     const LensState lens = bundled(name);
     const double lambda_nm = lens.design_wavelength_nm;
     // A small angle; the ray through the middle of the stop, by bisection of its height at the first vertex.
     const double slope = 1e-5;
-    const auto landing = [&](const OpticalPath& path) {
+    const auto image_point = [&](const OpticalPath& path) {
       const auto at = [&](double height) { return trace(path, {{0, height, 0}, normalized({0, slope, 1})}); };
       const double a = at(0.0).stop[0].y, b = at(1e-3).stop[0].y;
       return at(-1e-3 * a / (b - a)).sensor_mm.y;
     };
-    const double direct_mm = landing(direct_path(lens, lambda_nm));
+    const double direct_mm = image_point(direct_path(lens, lambda_nm));
     const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
     for (std::size_t g = 0; g < ghosts.size(); g += 7) {
       CAPTURE(ghosts[g].i);
       CAPTURE(ghosts[g].j);
-      const double expected = landing(ghost_path(lens, ghosts[g], lambda_nm)) / direct_mm;
-      CHECK(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).place ==
+      const double expected = image_point(ghost_path(lens, ghosts[g], lambda_nm)) / direct_mm;
+      CHECK(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).relative_image_height ==
             doctest::Approx(expected).epsilon(1e-3));
     }
   }
@@ -113,24 +113,25 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
   const auto ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   GhostOptions options;
   options.ramp = {{-1.0, {0, 0, 4}}, {0.0, {1, 2, 0}}, {1.0, {3, 0, 0}}};
-  const auto looks = ghost_looks(lens, ghosts, options, frame);
+  const auto adjustments = applied_adjustments(lens, ghosts, options, frame);
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    const double place = std::clamp(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).place, -1.0, 1.0);
-    CHECK(looks[g].tint[0] == doctest::Approx(place < 0.0 ? 1.0 + place : 1.0 + 2.0 * place));
-    CHECK(looks[g].tint[1] == doctest::Approx(2.0 * (1.0 - std::abs(place))));
-    CHECK(looks[g].tint[2] == doctest::Approx(place < 0.0 ? -4.0 * place : 0.0));
+    const double position =
+        std::clamp(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).relative_image_height, -1.0, 1.0);
+    CHECK(adjustments[g].tint[0] == doctest::Approx(position < 0.0 ? 1.0 + position : 1.0 + 2.0 * position));
+    CHECK(adjustments[g].tint[1] == doctest::Approx(2.0 * (1.0 - std::abs(position))));
+    CHECK(adjustments[g].tint[2] == doctest::Approx(position < 0.0 ? -4.0 * position : 0.0));
   }
   options = {};
-  options.scatter = 0.1;
-  const auto scattered = ghost_looks(lens, ghosts, options, frame);
+  options.jitter = 0.1;
+  const auto scattered = applied_adjustments(lens, ghosts, options, frame);
   double squares = 0.0;
-  for (const GhostLook& look : scattered) squares += dot(look.shift_mm, look.shift_mm);
+  for (const AppliedAdjustment& adjustment : scattered) squares += dot(adjustment.shift_mm, adjustment.shift_mm);
   const double rms = std::sqrt(squares / static_cast<double>(ghosts.size())) / (200.0 * frame.pixel_pitch_mm);
   CHECK(rms == doctest::Approx(0.1).epsilon(0.12));  // 312 ghosts: a standard deviation of 3 per cent
-  const auto alone = ghost_looks(lens, std::span(&ghosts[100], 1), options, frame);
+  const auto alone = applied_adjustments(lens, std::span(&ghosts[100], 1), options, frame);
   CHECK(alone[0].shift_mm == scattered[100].shift_mm);
-  options.scatter_seed = 1;
-  CHECK_FALSE(ghost_looks(lens, ghosts, options, frame)[100].shift_mm == scattered[100].shift_mm);
+  options.jitter_seed = 1;
+  CHECK_FALSE(applied_adjustments(lens, ghosts, options, frame)[100].shift_mm == scattered[100].shift_mm);
 }
 
 TEST_CASE("ghosts of a light at the frame's corner have the edge's gain") {
@@ -161,7 +162,7 @@ TEST_CASE("numbers that cannot be are refused") {
   CHECK(refuses([&](GhostOptions& o) { o.gain = nan; }));
   CHECK(refuses([&](GhostOptions& o) { o.gain = -1.0; }));
   CHECK(refuses([&](GhostOptions& o) { o.edge_gain = -1.0; }));
-  CHECK(refuses([&](GhostOptions& o) { o.scatter = -0.1; }));
+  CHECK(refuses([&](GhostOptions& o) { o.jitter = -0.1; }));
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{0.0, {1, 1, 1}}, {0.0, {1, 1, 1}}}; }));
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{nan, {1, 1, 1}}}; }));
   CHECK(refuses([&](GhostOptions& o) { o.ramp = {{0.0, {1, -1, 1}}}; }));

@@ -34,7 +34,7 @@ std::vector<Case> cases() {
   ringing.ringing.mode = RingingMode::Fresnel;
   hullin.ringing.mode = RingingMode::Hullin;
   starburst.starburst.on = true;
-  starburst.glare.share = 0.1;
+  starburst.glare.fraction = 0.1;
   test::Settings all = ringing;
   all.starburst = starburst.starburst;
   all.glare = starburst.glare;

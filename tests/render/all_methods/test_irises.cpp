@@ -29,7 +29,7 @@ LensState plate_with(const Iris& iris) {
 }
 
 // The fraction of a pixel that light through the stop covers: the plate's ghost is the stop's own image.
-double share_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
+double fraction_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
   constexpr int kSide = 8;
   int open = 0;
   for (int k = 0; k < kSide * kSide; ++k) {
@@ -44,16 +44,16 @@ void check_plate(const Iris& iris) {
   const test::Settings settings = green({80, 80, 0, 0, 80, 80, 0.08});
   const double area_mm2 = iris_area_fraction(iris) * std::numbers::pi * kIrisPlateRadius_mm * kIrisPlateRadius_mm;
   const double level = 0.04 * 0.04 * 0.08 * 0.08 / area_mm2;  // R^2 of the light, constant over the opening
-  std::vector<double> share(80 * 80);
+  std::vector<double> fraction(80 * 80);
   for (int k = 0; k < 80 * 80; ++k)
-    share[static_cast<std::size_t>(k)] = share_of_pixel(iris, settings.frame, k % 80, k / 80);
+    fraction[static_cast<std::size_t>(k)] = fraction_of_pixel(iris, settings.frame, k % 80, k / 80);
   for_each_method([&](const Bounds& bounds) {
     const Image image = image_of(bounds, lens, Light{}, settings);
     double squares = 0.0;
     double worst = 0.0;
     for (int y = 0; y < 80; ++y) {
       for (int x = 0; x < 80; ++x) {
-        const double expected = share[static_cast<std::size_t>(y * 80 + x)];
+        const double expected = fraction[static_cast<std::size_t>(y * 80 + x)];
         const double off = std::abs(image.at(x, y) / level - expected);
         squares += off * off;
         if (expected == 0.0 || expected == 1.0) worst = std::max(worst, off);

@@ -19,7 +19,7 @@ LensState ball() {
   lens.surfaces = {{SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0},
                    {SurfaceKind::Refracting, 0.1, 20.0, 9.0, {"", ConstantIndex{1.5}}, {}, 0},
                    {SurfaceKind::Refracting, -0.1, 0.0, 9.0, air(), {}, 0}};
-  LensState state = place(lens, 0.5);
+  LensState state = configured(lens, 0.5);
   state.sensor_z_mm = 30.0;
   return state;
 }
@@ -111,8 +111,8 @@ TEST_CASE("pictures are upright: a plate's ghost of a light up and to the right 
   const Vec3 d = light.direction;
   const Vec2 across{d.x, d.y};
   const double sine = length(across) / 1.5;
-  const Vec2 landing = across * (8.0 / d.z) + across * (6.0 / 1.5 / std::sqrt(1.0 - sine * sine));
-  const Vec2 expected = settings.frame.pixel_from_sensor(landing);
+  const Vec2 image_point = across * (8.0 / d.z) + across * (6.0 / 1.5 / std::sqrt(1.0 - sine * sine));
+  const Vec2 expected = settings.frame.pixel_from_sensor(image_point);
   for_each_method([&](const Bounds& bounds) {
     const Vec2 middle = centroid_px(image_of(bounds, lens, light, settings));
     CHECK(middle.x > 60.0);

@@ -44,8 +44,8 @@ TEST_CASE("a lens with aspheres as in the reference, and unlike its spheres") {
 TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the reference") {
   const double c = find_lens("tessar")->surfaces.front().curvature_per_mm;
   check_all(
-      changed_tessar({.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.6 * c, .turn_rad = 0.4},
-                     {.kind = ShapeKind::Biconic, .conic = -0.5, .curvature_x_per_mm = -0.7 * c, .turn_rad = -0.2}),
+      changed_tessar({.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.6 * c, .rotation_rad = 0.4},
+                     {.kind = ShapeKind::Biconic, .conic = -0.5, .curvature_x_per_mm = -0.7 * c, .rotation_rad = -0.2}),
       {0.66, 0.37});
 }
 
@@ -80,9 +80,9 @@ TEST_CASE(
 }
 
 TEST_CASE("a cover glass and a sensor that reflects in orders, as in the reference") {
-  LensSettings look{.f_number = 8.0};  // dots of some pixels, which `tiled` samples
-  look.sensor = {
+  LensSettings adjustment{.f_number = 8.0};  // dots of some pixels, which `tiled` samples
+  adjustment.sensor = {
       .plates = {{2.0, 15.0, Glass{"", ConstantIndex{1.5}}, {}}}, .reflectance = 0.2, .orders = 1, .pitch_mm = 0.008};
-  const LensState lens = bundled("tessar", look);
+  const LensState lens = bundled("tessar", adjustment);
   check_all(lens, {0.6, 0.4});
 }

@@ -7,7 +7,7 @@
 
 #include "base/scalar.h"
 #include "render/area_lights/blur_error.h"
-#include "render/area_lights/layers.h"
+#include "render/area_lights/image_pyramid.h"
 
 using namespace contrejour;
 using namespace contrejour::area;
@@ -27,8 +27,8 @@ Image blurred_disc(double radius_px, double blur_px, int level) {
   const Frame frame{kSide, kSide, 0, 0, kSide, kSide, 0.01};
   const LightPiece piece = pieces_of(disc_light()).front();
   const LinearMap map = LinearMap{} * (blur_px / std::tan(0.01) * std::exp2(-level));
-  Layers layers(frame);
-  const LayerFrame at = layers.frame_for(level, reach_of(piece, map));
+  ImagePyramid pyramid(frame);
+  const PyramidFrame at = pyramid.frame_for(level, extent_of(piece, map));
   const double scale = std::exp2(level);
   const Vec2 middle{(0.5 * kSide + 0.3) / scale - at.left, (0.5 * kSide - 0.2) / scale - at.top};
   Image picture(at.frame.width, at.frame.height);
@@ -43,8 +43,8 @@ Image blurred_disc(double radius_px, double blur_px, int level) {
       for (int c = 0; c < 3; ++c) picture.at(x, y, c) = static_cast<float>(scale * scale * inside / (kFine * kFine));
     }
   }
-  layers.add({picture}, at, make_kernel(piece, map, at.moved), 0.0, {});
-  return std::move(layers).flattened({});
+  pyramid.add({picture}, at, make_kernel(piece, map, at.moved), 0.0, {});
+  return std::move(pyramid).flattened({});
 }
 
 double squares(const Image& a, const Image& b) {

@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "render/area_lights/convolve.h"
-#include "render/area_lights/layers.h"
+#include "render/area_lights/image_pyramid.h"
 
 using namespace contrejour;
 using namespace contrejour::area;
@@ -24,11 +24,11 @@ Image random_picture(int width, int height, unsigned seed) {
   return image;
 }
 
-Kernel random_kernel(KernelReach reach, unsigned seed) {
+Kernel random_kernel(KernelExtent extent, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> level(0.0, 1.0);
   Kernel kernel;
-  kernel.reach = reach;
+  kernel.extent = extent;
   for (int k = 0; k < kernel.width() * kernel.height(); ++k)
     kernel.weight.push_back(k % 5 == 0 ? Rgb{} : Rgb{level(random), level(random), level(random)});
   return kernel;
@@ -62,11 +62,11 @@ double largest_difference(const Image& a, const Image& b) {
   return worst;
 }
 
-// The light's flux and first and second moments about a place.
+// The light's flux and first and second moments about a point.
 struct Moments {
   double flux = 0.0;
   Vec2 mean;
-  LinearMap covariance = kNowhere;
+  LinearMap covariance = kZeroMap;
 };
 
 Moments moments_of(const Image& image, int channel) {
@@ -119,7 +119,7 @@ TEST_CASE("a convolution is the plain sum, at any width and number of threads") 
 
 TEST_CASE("a part of a picture with all of its light is as good, wherever it lies, of smooth pictures, too") {
   Kernel disc;
-  disc.reach = {2, 2, 2, 2};
+  disc.extent = {2, 2, 2, 2};
   for (int k = 0; k < 25; ++k) disc.weight.push_back({0.04, 0.04, 0.04});
   for (const Kernel& kernel : {random_kernel({3, 1, 2, 4}, 7), disc}) {
     const int beside_x = kernel.width() - 1, beside_y = kernel.height() - 1;
@@ -135,10 +135,10 @@ TEST_CASE("a part of a picture with all of its light is as good, wherever it lie
       const Image cut = cut_out(whole, part);
       Image by_whole = random_picture(70, 30, 5), by_part = by_whole;
       for (const ConvolveMode mode : {ConvolveMode::Add, ConvolveMode::Write}) {
-        for (const double unseen : {0.0, 0.01}) {
-          convolve(by_whole, mode, {whole}, kernel, unseen, {.threads = 2});
-          convolve(by_part, mode, {cut, part.left, part.top}, kernel, unseen, {.threads = 2});
-          CHECK(largest_difference(by_whole, by_part) < 1e-5 + 2.0 * unseen);  // blocks begin elsewhere
+        for (const double negligible_level : {0.0, 0.01}) {
+          convolve(by_whole, mode, {whole}, kernel, negligible_level, {.threads = 2});
+          convolve(by_part, mode, {cut, part.left, part.top}, kernel, negligible_level, {.threads = 2});
+          CHECK(largest_difference(by_whole, by_part) < 1e-5 + 2.0 * negligible_level);  // blocks begin elsewhere
         }
       }
     }
@@ -151,7 +151,7 @@ TEST_CASE("a part of a picture with all of its light is as good, wherever it lie
 
 TEST_CASE("white kernels, and what is linear under them") {
   Kernel disc;
-  disc.reach = {3, 3, 3, 3};
+  disc.extent = {3, 3, 3, 3};
   double sum = 0.0;
   for (int k = 0; k < 49; ++k) {
     const double w = std::hypot(k % 7 - 3, k / 7 - 3) < 3.2 ? 1.0 : 0.0;
@@ -188,7 +188,7 @@ TEST_CASE("white kernels, and what is linear under them") {
   CHECK(worst_loose > 1e-4);  // the step was not refined
 }
 
-TEST_CASE("a spot at any level comes back at its place, with its flux and the shape's moments") {
+TEST_CASE("a spot at any level comes back at its position, with its flux and the shape's moments") {
   // A window of a frame of odd size, so that no level's pixels are aligned with the frame's.
   Frame frame{601, 503, 37, 11, 701, 555, 0.02};
   Light light;
@@ -196,25 +196,26 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
   const LightPiece piece = pieces_of(light).front();
   for (int k = 0; k < 10; ++k) {
     const int level = k / 2;
-    const Halving how = k % 2 == 0 ? Halving::Interpolating : Halving::Smooth;
+    const Upsampling how = k % 2 == 0 ? Upsampling::Interpolating : Upsampling::Smooth;
     CAPTURE(level);
     const double radius_px = 5.0 * std::exp2(level) + 2.0;
-    const double turn = 0.4;
-    const LinearMap map = LinearMap{{std::cos(turn), std::sin(turn)}, {-0.7 * std::sin(turn), 0.7 * std::cos(turn)}} *
-                          (radius_px / std::tan(light.radius_rad));
+    const double rotation = 0.4;
+    const LinearMap map =
+        LinearMap{{std::cos(rotation), std::sin(rotation)}, {-0.7 * std::sin(rotation), 0.7 * std::cos(rotation)}} *
+        (radius_px / std::tan(light.radius_rad));
     const LinearMap at_level = map * std::exp2(-level);
-    Layers layers(frame, how);
-    const LayerFrame at = layers.frame_for(level, reach_of(piece, at_level));
+    ImagePyramid pyramid(frame, how);
+    const PyramidFrame at = pyramid.frame_for(level, extent_of(piece, at_level));
     // Fills the pixel of this level that contains a point of the sensor, by the frame's map.
-    const Vec2 place = frame.sensor_from_pixel({300.0, 250.0});
-    const Vec2 px = at.frame.pixel_from_sensor(place);
+    const Vec2 point = frame.sensor_from_pixel({300.0, 250.0});
+    const Vec2 px = at.frame.pixel_from_sensor(point);
     Image spot(at.frame.width, at.frame.height);
     const int x = static_cast<int>(px.x), y = static_cast<int>(px.y);
     for (int c = 0; c < 3; ++c) spot.at(x, y, c) = 1.0F + static_cast<float>(c);
     const Vec2 expected = frame.pixel_from_sensor(at.frame.sensor_from_pixel({x + 0.5, y + 0.5}));
-    const double spread = how == Halving::Smooth ? smooth_variance(level) : 0.0;
-    layers.add({spot}, at, make_kernel(piece, at_level, at.moved, spread), 0.0, {});
-    const Image flat = std::move(layers).flattened({});
+    const double spread = how == Upsampling::Smooth ? smooth_variance(level) : 0.0;
+    pyramid.add({spot}, at, make_kernel(piece, at_level, at.moved, spread), 0.0, {});
+    const Image flat = std::move(pyramid).flattened({});
     CHECK(std::ranges::all_of(flat.pixels, [](float v) { return v >= 0.0F; }));
     for (int c = 0; c < 3; ++c) {
       const Moments m = moments_of(flat, c);
@@ -232,16 +233,16 @@ TEST_CASE("a spot at any level comes back at its place, with its flux and the sh
 TEST_CASE("layers that go down early sum to the same") {
   const Frame frame{70, 50, 0, 0, 70, 50, 0.1};
   const auto drawn = [&](bool early) {
-    Layers layers(frame);
+    ImagePyramid pyramid(frame);
     for (const int level : {3, 2, 0}) {
       const Kernel kernel = random_kernel({2, 1, 1, 2}, 5);
-      const LayerFrame at = layers.frame_for(level, kernel.reach);
-      if (early) layers.descend_to(std::max(level, 1), {});
+      const PyramidFrame at = pyramid.frame_for(level, kernel.extent);
+      if (early) pyramid.upsample_to(std::max(level, 1), {});
       const Image picture = random_picture(at.frame.width, at.frame.height, 9);
-      layers.add({picture}, at, kernel, 0.0, {});
-      if (level > 0) layers.add_sharp(random_picture(70, 50, 4), {});
+      pyramid.add({picture}, at, kernel, 0.0, {});
+      if (level > 0) pyramid.add_sharp(random_picture(70, 50, 4), {});
     }
-    return std::move(layers).flattened({});
+    return std::move(pyramid).flattened({});
   };
   const Image early = drawn(true), late = drawn(false);
   double worst = 0.0;
@@ -258,34 +259,35 @@ TEST_CASE("a part of a sharp picture is added where it belongs, with and without
   const Image cut = cut_out(whole, lit);
   for (const bool has_blurred : {false, true}) {
     const auto drawn = [&](const auto& add) {
-      Layers layers(frame);
+      ImagePyramid pyramid(frame);
       const Kernel kernel = random_kernel({2, 1, 1, 2}, 5);
-      const LayerFrame at = layers.frame_for(2, kernel.reach);
+      const PyramidFrame at = pyramid.frame_for(2, kernel.extent);
       const Image blurred = random_picture(at.frame.width, at.frame.height, 9);
-      if (has_blurred) layers.add({blurred}, at, kernel, 0.0, {});
-      add(layers);
-      return std::move(layers).flattened({});
+      if (has_blurred) pyramid.add({blurred}, at, kernel, 0.0, {});
+      add(pyramid);
+      return std::move(pyramid).flattened({});
     };
-    const Image by_whole = drawn([&](Layers& layers) { layers.add_sharp(whole, {}); });
-    const Image by_part = drawn([&](Layers& layers) { layers.add_sharp(PicturePart{cut, lit.left, lit.top}, {}); });
+    const Image by_whole = drawn([&](ImagePyramid& pyramid) { pyramid.add_sharp(whole, {}); });
+    const Image by_part =
+        drawn([&](ImagePyramid& pyramid) { pyramid.add_sharp(PicturePart{cut, lit.left, lit.top}, {}); });
     CHECK(largest_difference(by_whole, by_part) < 1e-5);
   }
 }
 
 TEST_CASE("what is drawn at two levels at once comes down as if added at the finer") {
   const Frame frame{64, 48, 0, 0, 64, 48, 0.1};
-  Layers layers(frame);
+  ImagePyramid pyramid(frame);
   // The mean over each pixel of a polynomial, at level 2: upsampling preserves it.
   const auto mean = [](double x0, double x1) { return (x1 * x1 * x1 - x0 * x0 * x0) / 3.0 / (x1 - x0) + 100.0; };
   Kernel delta;
   delta.weight = {{1.0, 1.0, 1.0}};
-  const LayerFrame at = layers.frame_for(2, {});
+  const PyramidFrame at = pyramid.frame_for(2, {});
   Image picture(at.frame.width, at.frame.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
       for (int c = 0; c < 3; ++c)
         picture.at(x, y, c) = static_cast<float>(16.0 * mean(4.0 * (at.left + x), 4.0 * (at.left + x + 1)));
-  layers.add({picture}, at, delta, 0.0, {});
-  const Image flat = std::move(layers).flattened({});
+  pyramid.add({picture}, at, delta, 0.0, {});
+  const Image flat = std::move(pyramid).flattened({});
   for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == doctest::Approx(mean(x, x + 1)).epsilon(1e-4));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The displacement of a ghost with its light: against rays traced one by one through the same place of the stop.
+// The displacement of a ghost with its light: against rays traced one by one through the same point of the stop.
 #include <cmath>
 #include <optional>
 
@@ -13,12 +13,13 @@ using namespace contrejour::area;
 
 namespace {
 
-struct Landing {
+struct ImagePoint {
   Vec2 start_mm, sensor_mm;
 };
 
 // The ray of a light through the middle of the stop at its first crossing, by Newton's method from a starting point.
-std::optional<Landing> through_middle(const OpticalPath& path, const LightSource& source, double z_mm, Vec2 start_mm) {
+std::optional<ImagePoint> through_middle(const OpticalPath& path, const LightSource& source, double z_mm,
+                                         Vec2 start_mm) {
   const auto traced = [&](Vec2 at) {
     const Vec3 from{at.x, at.y, z_mm};
     return trace(path, {from, source.direction_at(from)});
@@ -29,7 +30,7 @@ std::optional<Landing> through_middle(const OpticalPath& path, const LightSource
     const TracedRay right = traced(start_mm + Vec2{kStep, 0.0}), up = traced(start_mm + Vec2{0.0, kStep});
     for (const TracedRay& ray : {here, right, up})
       if (ray.status != RayStatus::Ok) return std::nullopt;
-    if (length(here.stop[0]) < 1e-9) return Landing{start_mm, here.sensor_mm};
+    if (length(here.stop[0]) < 1e-9) return ImagePoint{start_mm, here.sensor_mm};
     const LinearMap by_start{(right.stop[0] - here.stop[0]) * (1.0 / kStep),
                              (up.stop[0] - here.stop[0]) * (1.0 / kStep)};
     start_mm = start_mm - inverse(by_start)(here.stop[0]);
@@ -56,9 +57,10 @@ TEST_CASE("a ghost that the stop bounds moves as its ray through the middle of t
       if (path.stop_crossings != 1) continue;
       const double z_mm = windows.of(true).z_mm, tangent = 1e-4;
       const auto middle = through_middle(path, source, z_mm, {});
-      if (!middle || length(motion.at_mm - middle->sensor_mm) > 0.05) continue;  // rims bound it, or it has two pupils
-      const auto right = through_middle(path, source_beside(source, {tangent, 0.0}), z_mm, middle->start_mm);
-      const auto up = through_middle(path, source_beside(source, {0.0, tangent}), z_mm, middle->start_mm);
+      if (!middle || length(motion.centroid_mm - middle->sensor_mm) > 0.05)
+        continue;  // rims bound it, or it has two pupils
+      const auto right = through_middle(path, offset_source(source, {tangent, 0.0}), z_mm, middle->start_mm);
+      const auto up = through_middle(path, offset_source(source, {0.0, tangent}), z_mm, middle->start_mm);
       REQUIRE((right.has_value() && up.has_value()));
       const LinearMap expected{(right->sensor_mm - middle->sensor_mm) * (1.0 / tangent),
                                (up->sensor_mm - middle->sensor_mm) * (1.0 / tangent)};

@@ -34,9 +34,9 @@ TEST_CASE("a disc's pieces hold its value, and a small disc's covariance is a qu
     for (const LightPiece& piece : pieces) {
       for (std::size_t c = 0; c < 3; ++c) sum[c] += piece.point.value[c];
       centre = centre + piece.middle * (piece.point.value[0] / light.value[0]);
-      double share = 0.0;
-      for (const ShapeSample& s : piece.samples) share += s.share[1];
-      CHECK(share == doctest::Approx(1.0));
+      double fraction = 0.0;
+      for (const ShapeSample& s : piece.samples) fraction += s.fraction[1];
+      CHECK(fraction == doctest::Approx(1.0));
       CHECK(piece.point.is_point());
     }
     for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(light.value[c]));
@@ -48,7 +48,7 @@ TEST_CASE("a disc's pieces hold its value, and a small disc's covariance is a qu
   }
 }
 
-TEST_CASE("a shape's pieces lie where its light is, in each channel's share") {
+TEST_CASE("a shape's pieces lie where its light is, with the fraction of each channel") {
   Image level(3, 1);
   level.at(0, 0, 0) = 1.0F;  // red on the left, green on the right, no blue
   level.at(2, 0, 1) = 4.0F;
@@ -58,7 +58,7 @@ TEST_CASE("a shape's pieces lie where its light is, in each channel's share") {
   REQUIRE(pieces.size() == 1);
   for (std::size_t c = 0; c < 3; ++c) CHECK(pieces[0].point.value[c] == doctest::Approx(light.value[c]));
   Vec2 red;
-  for (const ShapeSample& s : pieces[0].samples) red = red + (s.at + pieces[0].middle) * s.share[0];
+  for (const ShapeSample& s : pieces[0].samples) red = red + (s.at + pieces[0].middle) * s.fraction[0];
   CHECK(red.x == doctest::Approx(-0.002));
   CHECK(red.y == doctest::Approx(0.0));
 }
@@ -86,11 +86,11 @@ TEST_CASE("extents that are none are refused with a reason") {
   CHECK_FALSE(check_extent(both).has_value());
 }
 
-TEST_CASE("beside a direction: right and up as the photographer sees them") {
-  const Vec3 right = direction_beside({0, 0, 1}, {0.1, 0.0}), up = direction_beside({0, 0, 1}, {0.0, 0.1});
+TEST_CASE("offset from a direction: right and up as the photographer sees them") {
+  const Vec3 right = offset_direction({0, 0, 1}, {0.1, 0.0}), up = offset_direction({0, 0, 1}, {0.0, 0.1});
   CHECK(angles_from_direction(right).azimuth_rad == doctest::Approx(std::atan(0.1)));
   CHECK(angles_from_direction(up).elevation_rad == doctest::Approx(std::atan(0.1)));
   const Vec3 d = direction_from_angles(0.7, -0.5);
-  CHECK(length(direction_beside(d, {}) - d) < 1e-12);
-  CHECK(dot(direction_beside(d, {0.3, 0.4}), d) == doctest::Approx(1.0 / std::sqrt(1.25)));
+  CHECK(length(offset_direction(d, {}) - d) < 1e-12);
+  CHECK(dot(offset_direction(d, {0.3, 0.4}), d) == doctest::Approx(1.0 / std::sqrt(1.25)));
 }

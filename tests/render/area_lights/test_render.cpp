@@ -24,10 +24,11 @@ namespace {
 std::vector<Light> points_over(const Light& disc, int count) {
   std::vector<Light> points;
   for (int k = 0; k < count; ++k) {
-    const double r = std::tan(disc.radius_rad) * std::sqrt((k + 0.5) / count), turn = k * kPi * (3.0 - std::sqrt(5.0));
+    const double r = std::tan(disc.radius_rad) * std::sqrt((k + 0.5) / count),
+                 rotation = k * kPi * (3.0 - std::sqrt(5.0));
     Light point = disc;
     point.radius_rad = 0.0;
-    point.direction = direction_beside(disc.direction, {r * std::cos(turn), r * std::sin(turn)});
+    point.direction = offset_direction(disc.direction, {r * std::cos(rotation), r * std::sin(rotation)});
     for (double& v : point.value) v /= count;
     points.push_back(point);
   }
@@ -49,7 +50,7 @@ TEST_CASE("the sun is the sum of points over its disc") {
   struct Case {
     const char* lens;
     double f_number;
-    double least_db;
+    double min_db;
     Vec2 angles_rad;
   };
   // Two of the Tessar's ghosts are special: one is a sliver, and of another the sun's middle lights only a part. The
@@ -57,7 +58,7 @@ TEST_CASE("the sun is the sum of points over its disc") {
   const Case cases[] = {{"planar-50", 8.0, 50.0, {0.17, 0.1}},
                         {"tessar", 11.0, 43.0, {0.17, 0.1}},
                         {"heliar", 16.0, 41.0, {-0.12, 0.15}}};
-  for (const auto& [name, f_number, least_db, angles] : cases) {
+  for (const auto& [name, f_number, min_db, angles] : cases) {
     CAPTURE(name);
     const LensState lens = test::bundled(name, {.f_number = f_number, .iris = {7}});
     test::Settings settings = test::green(frame_on_sensor(lens, 240, 160));
@@ -69,7 +70,7 @@ TEST_CASE("the sun is the sum of points over its disc") {
     point.radius_rad = 0.0;
     const Flare still = test::flare_of("adaptive", lens, {&point, 1}, settings);
     const double db = psnr_db(truth.image, ours.image);
-    CHECK(db > least_db);
+    CHECK(db > min_db);
     CHECK(db > psnr_db(truth.image, still.image) + 6.0);
   }
 }
@@ -79,7 +80,7 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
     const char* lens;
     LensSettings settings;
     Frame (*frame)(const LensState&);
-    double degrees, least_db;
+    double degrees, min_db;
     Vec2 angles_rad;
   };
   const auto sensor = [](const LensState& lens) { return frame_on_sensor(lens, 160, 106); };
@@ -100,7 +101,7 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
     const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
     settings.set_error(0.001);
     const Image truth = test::flare_of("adaptive", lens, points_over(light, 120), settings).image;
-    CHECK(psnr_db(truth, ours) > at.least_db);
+    CHECK(psnr_db(truth, ours) > at.min_db);
     CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.015));
   }
 }
@@ -124,13 +125,13 @@ TEST_CASE("many lights with a size take at most four times as long as points") {
         std::make_shared<const LightShape>(LightShape{level, {20.0, 20.0}, {pixel, 0.0}, {0.0, -pixel}});
   }
   const auto seconds = [&](const std::vector<Light>& lights) {
-    double least = std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
     for (int run = 0; run < 2; ++run) {
       const std::clock_t start = std::clock();
       test::flare_of("adaptive", lens, lights, settings, {.threads = 1});
-      least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+      smallest = std::min(smallest, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     }
-    return least;
+    return smallest;
   };
   CHECK(seconds(shapes) < 4.0 * seconds(points));
 }
@@ -198,7 +199,7 @@ TEST_CASE("a shape's ghost is the shape, as the ghost turns it, and lies where p
     for (int k = 0; k < kEach * kEach; ++k) {
       Light point;
       const double u = x + (k % kEach + 0.5) / kEach - 1.0, v = y + (k / kEach + 0.5) / kEach - 2.0;
-      point.direction = direction_beside(light.direction, {u * pixel, -v * pixel});
+      point.direction = offset_direction(light.direction, {u * pixel, -v * pixel});
       for (double& value : point.value) value /= 5.0 * kEach * kEach;
       points.push_back(point);
     }

@@ -26,13 +26,13 @@ double total(const FluxBox& box) {
 
 double at(const FluxBox& box, int x, int y) { return box.row(y)[static_cast<std::size_t>(x - box.box().x0)]; }
 
-std::vector<Vec2> ellipse(Vec2 middle, Vec2 radius, double turn, int corners) {
+std::vector<Vec2> ellipse(Vec2 middle, Vec2 radius, double rotation, int corners) {
   std::vector<Vec2> p;
   for (int k = 0; k < corners; ++k) {
     const double a = 2.0 * std::numbers::pi * k / corners;
     const Vec2 q{radius.x * std::cos(a), radius.y * std::sin(a)};
-    p.push_back(middle +
-                Vec2{q.x * std::cos(turn) - q.y * std::sin(turn), q.x * std::sin(turn) + q.y * std::cos(turn)});
+    p.push_back(middle + Vec2{q.x * std::cos(rotation) - q.y * std::sin(rotation),
+                              q.x * std::sin(rotation) + q.y * std::cos(rotation)});
   }
   return p;
 }
@@ -57,16 +57,16 @@ double sampled(const std::vector<Vec2>& polygon, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("every pixel gets the share of the polygon that covers it") {
+TEST_CASE("every pixel gets the fraction of the polygon that covers it") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int k = 0; k < 60; ++k) {
     FluxBox box(PixelBox{3, 2, 15, 12});
     const auto polygon = ellipse({3.0 + 12 * unit(random), 2.0 + 10 * unit(random)},
                                  {0.05 + 4 * unit(random), 0.05 + 4 * unit(random)}, 6 * unit(random), 3 + k % 6);
-    auto turned = polygon;
-    if (k % 2 == 1) std::reverse(turned.begin(), turned.end());
-    box.add_polygon(turned, {{0.0, 0.0}, 2.0, {}});
+    auto rotated = polygon;
+    if (k % 2 == 1) std::reverse(rotated.begin(), rotated.end());
+    box.add_polygon(rotated, {{0.0, 0.0}, 2.0, {}});
     for (int y = 2; y < 12; ++y) {
       for (int x = 3; x < 15; ++x)
         CHECK(at(box, x, y) == doctest::Approx(2.0 * sampled(polygon, x, y)).epsilon(0.02).scale(1.0));

@@ -40,7 +40,7 @@ double phase_ms(const Flare& flare, std::string_view name) {
 Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const test::Settings& settings) {
   FramePlan plan;
   plan.ghosts = {ghost};
-  plan.looks = {{}};
+  plan.adjustments = {{}};
   plan.lights = {{normalized(light.direction), {}}};
   const TablesByWavelength tables(lens);
   for (const SpectralBand& band : spectral_bands(settings.wavelengths, light.spectrum, settings.colour_space)) {
@@ -91,7 +91,7 @@ TEST_CASE("half the rays, mirrored, are the rays that would have been traced") {
   const OpticalPath path = ghost_path(lens, {8, 10}, 550.0);
   const ReflectanceTables tables(lens, 550.0);
   const EntranceWindow window = entrance_window(lens, meridian.light);
-  const IrisShape iris(turned_back(lens.iris, meridian));
+  const IrisShape iris(rotated_back(lens.iris, meridian));
   const Rectangle box{{-4.0, -3.0}, {5.0, 3.0}};
   for (const int side : {32, 33}) {
     RayGrid whole;
@@ -150,10 +150,10 @@ TEST_CASE("grid levels spend fewer rays and stay close to the finest grid") {
   CHECK(psnr_db(finest.image, levels.image) > 55.0);
 }
 
-TEST_CASE("a map's figures: flat, bent, folded, stretched, hardly open") {
+TEST_CASE("a map's figures: flat, curved, folded, stretched, hardly open") {
   const auto flat = bundle::measure_map(made_up([](Vec2 p) { return p * 3.0; }));
   CHECK(flat.area_variance < 1e-9);
-  CHECK(flat.open_share == 1.0);
+  CHECK(flat.open_fraction == 1.0);
   CHECK(flat.anisotropy == doctest::Approx(1.0).epsilon(1e-4));
   CHECK(bundle::grid_level(flat) == 16);
   // dx'/dx = 1 + x / 2: areas have variance 1/12 over x in -1 .. 1.
@@ -169,7 +169,7 @@ TEST_CASE("a map's figures: flat, bent, folded, stretched, hardly open") {
   CHECK(bundle::is_very_anisotropic(stretched));
   CHECK_FALSE(bundle::is_very_anisotropic(folded));
   const auto small = bundle::measure_map(made_up([](Vec2 p) { return p; }, 0.2));
-  CHECK(small.open_share < 0.07);
+  CHECK(small.open_fraction < 0.07);
   CHECK(bundle::grid_level(small) == 64);
 }
 

@@ -47,7 +47,7 @@ Fan fan_over(Vec2 low, Vec2 high, double z_mm, Vec3 direction, int side) {
 }
 
 struct Worst {
-  double place_mm = 0, transmission = 0, stop = 0, r_rel = 0;
+  double point_mm = 0, transmission = 0, stop = 0, relative_height = 0;
   int rays = 0;
 };
 
@@ -63,9 +63,9 @@ Worst compare(const OpticalPath& path, const LensState& lens, const ReflectanceT
     if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > 0.0) continue;
     const auto& c = batch.columns;
     ++worst.rays;
-    worst.place_mm = std::max(worst.place_mm, std::hypot(c[0][k] - ray.sensor_mm.x, c[1][k] - ray.sensor_mm.y));
+    worst.point_mm = std::max(worst.point_mm, std::hypot(c[0][k] - ray.sensor_mm.x, c[1][k] - ray.sensor_mm.y));
     worst.transmission = std::max(worst.transmission, std::abs(c[2][k] / ray.transmission - 1.0));
-    worst.r_rel = std::max(worst.r_rel, std::abs(c[3][k] - ray.r_rel));
+    worst.relative_height = std::max(worst.relative_height, std::abs(c[3][k] - ray.relative_height));
     for (std::size_t s = 0; s < static_cast<std::size_t>(path.stop_crossings); ++s) {
       worst.stop = std::max(worst.stop, std::hypot(c[4 + s][k] - ray.stop[s].x, c[7 + s][k] - ray.stop[s].y));
     }
@@ -75,9 +75,9 @@ Worst compare(const OpticalPath& path, const LensState& lens, const ReflectanceT
 
 // Interpolates between the nodes as look_up() does.
 double interpolated(const float* table, double u) {
-  const double place = u * ReflectanceTables::kIntervals;
-  const int k = std::min(static_cast<int>(place), ReflectanceTables::kIntervals - 1);
-  return std::lerp(static_cast<double>(table[k]), static_cast<double>(table[k + 1]), place - k);
+  const double position = u * ReflectanceTables::kIntervals;
+  const int k = std::min(static_cast<int>(position), ReflectanceTables::kIntervals - 1);
+  return std::lerp(static_cast<double>(table[k]), static_cast<double>(table[k + 1]), position - k);
 }
 
 LensState one_surface(const Coating& coating, double n) {
@@ -108,11 +108,11 @@ TEST_CASE("packets land where single rays in double do, on every instruction set
       const Worst single = compare(path, lens, tables, fan, PacketPrecision::Float);
       const Worst fine = compare(path, lens, tables, fan, PacketPrecision::Double);
       CHECK(single.rays > 100);
-      CHECK(single.place_mm < 1e-3);
+      CHECK(single.point_mm < 1e-3);
       CHECK(single.transmission < 1e-4);
-      CHECK(single.r_rel < 1e-4);
+      CHECK(single.relative_height < 1e-4);
       CHECK(single.stop < 1e-3);
-      CHECK(fine.place_mm < 1e-5);
+      CHECK(fine.point_mm < 1e-5);
       CHECK(fine.transmission < 1e-4);
       CHECK(fine.stop < 1e-5);
     }
@@ -160,7 +160,7 @@ TEST_CASE("a path that crosses the stop three times tells all three crossings") 
   const Worst worst = compare(wide, open, tables, fan, PacketPrecision::Float);
   CHECK(worst.rays > 100);
   CHECK(worst.stop < 1e-5);
-  CHECK(worst.place_mm < 1e-3);
+  CHECK(worst.point_mm < 1e-3);
 }
 
 TEST_CASE("any number of rays gives each ray the same result") {
@@ -275,14 +275,14 @@ bool same(const PacketStep& a, const PacketStep& b) {
          a.inverse_semi_diameter_per_mm == b.inverse_semi_diameter_per_mm &&
          a.inverse_semi_diameter_squared == b.inverse_semi_diameter_squared && a.eta == b.eta &&
          (a.shape == nullptr) == (b.shape == nullptr) && a.axis == b.axis && a.offset_mm == b.offset_mm &&
-         a.rim.place({1.0, 2.0}) == b.rim.place({1.0, 2.0}) && a.blocks_within == b.blocks_within &&
+         a.rim.coordinates({1.0, 2.0}) == b.rim.coordinates({1.0, 2.0}) && a.blocks_within == b.blocks_within &&
          a.absorption_per_mm == b.absorption_per_mm && a.grating_shift == b.grating_shift &&
          a.efficiency == b.efficiency;
 }
 
 }  // namespace
 
-TEST_CASE("ways put together from a lens's steps are those of the ghosts' paths") {
+TEST_CASE("paths put together from a lens's steps are those of the ghosts' paths") {
   const LightRays rays{{1.0, 2.0, -3.0}, normalized({0.1, -0.05, 1.0})};
   const std::vector<float> x_mm{0.0F, 1.0F, -2.0F, 3.0F}, y_mm{0.0F, -1.0F, 0.5F, 2.0F};
   std::size_t of_shapes = 0, general = 0, with_order = 0, of_four = 0;

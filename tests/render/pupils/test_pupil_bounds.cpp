@@ -70,12 +70,12 @@ class Searcher {
 };
 
 // A few ghosts of each lens at angles of their own, the same in every run.
-void check_bounds(const LensState& lens, std::size_t most_ghosts) {
+void check_bounds(const LensState& lens, std::size_t max_ghosts) {
   const auto all = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   PupilBoundsRange range;
   range.lambda_nm = {kGreen_nm};
   range.largest_angle_rad = corner_angle_rad(lens);
-  for (std::size_t k = 0; k < all.size(); k += 1 + all.size() / most_ghosts) range.ghosts.push_back(all[k]);
+  for (std::size_t k = 0; k < all.size(); k += 1 + all.size() / max_ghosts) range.ghosts.push_back(all[k]);
   const PupilBounds bounds(lens, range, {});
   Searcher searcher(lens);
   std::mt19937 random(11);
@@ -164,13 +164,13 @@ TEST_CASE("bounds over zoom and stop hold every ray of the settings between [slo
   CHECK(open > 10000);
 }
 
-TEST_CASE("a light's meridian turns into place") {
+TEST_CASE("a light's meridian is rotated to the lens's frame") {
   const Vec3 direction = normalized({-0.2, 0.3, 1.0});
   const Meridian meridian = meridian_of(direction);
   CHECK(meridian.light.direction.y == 0.0);
-  CHECK(meridian.light.direction.x * std::cos(meridian.turn_rad) == doctest::Approx(direction.x));
-  CHECK(meridian.light.direction.x * std::sin(meridian.turn_rad) == doctest::Approx(direction.y));
+  CHECK(meridian.light.direction.x * std::cos(meridian.rotation_rad) == doctest::Approx(direction.x));
+  CHECK(meridian.light.direction.x * std::sin(meridian.rotation_rad) == doctest::Approx(direction.y));
   CHECK(std::cos(meridian.angle_rad()) == doctest::Approx(direction.z));
-  CHECK(meridian_of(Vec3{0.0, 0.0, 1.0}).turn_rad == 0.0);
-  CHECK(turned_back(Iris{5, 0.4}, meridian).rotation_rad == doctest::Approx(0.4 - meridian.turn_rad));
+  CHECK(meridian_of(Vec3{0.0, 0.0, 1.0}).rotation_rad == 0.0);
+  CHECK(rotated_back(Iris{5, 0.4}, meridian).rotation_rad == doctest::Approx(0.4 - meridian.rotation_rad));
 }

@@ -25,12 +25,12 @@ TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is i
   const ReflectanceTables tables(lens, 550.0);
   const LensSteps steps(lens, tables);
   int found = 0, whole = 0;
-  for (const double turn : {0.0, 0.4, 2.5, -1.2}) {
+  for (const double rotation : {0.0, 0.4, 2.5, -1.2}) {
     const double tangent = 0.12;
-    const LightSource source{normalized(Vec3{tangent * std::cos(turn), tangent * std::sin(turn), 1.0})};
+    const LightSource source{normalized(Vec3{tangent * std::cos(rotation), tangent * std::sin(rotation), 1.0})};
     const EntranceWindow window = entrance_window(lens, source);
     for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::OneSideOfStop)) {
-      CAPTURE(turn);
+      CAPTURE(rotation);
       CAPTURE(ghost.i);
       CAPTURE(ghost.j);
       const auto half = find_pupil_shape(steps, ghost, LightFrame(source, true), window);
@@ -40,12 +40,12 @@ TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is i
       ++found;
       whole += half->is_whole() && all->is_whole() ? 1 : 0;
       const double radius_mm = 2.0 * std::sqrt(0.5 * trace_of(all->covariance));
-      CHECK(length(half->at_mm - all->at_mm) < 0.6 * radius_mm);
+      CHECK(length(half->middle_mm - all->middle_mm) < 0.6 * radius_mm);
       CHECK(apart(half->covariance, all->covariance) < 0.25);
       CHECK(half->area_mm2 == doctest::Approx(all->area_mm2).epsilon(0.25));
       CHECK(half->border_mm == doctest::Approx(all->border_mm).epsilon(0.4));
       CHECK_FALSE(half->border.empty());
-      for (const BorderRay& ray : half->border) CHECK(length(ray.start_mm - all->at_mm) < 3.0 * radius_mm);
+      for (const BorderRay& ray : half->border) CHECK(length(ray.start_mm - all->middle_mm) < 3.0 * radius_mm);
     }
   }
   CHECK(found > 30);

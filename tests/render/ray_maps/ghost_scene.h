@@ -7,7 +7,7 @@
 
 #include "optics/trace/by_wavelength.h"
 #include "render/pupils/pupil_search.h"
-#include "render/ray_maps/ray_sheet.h"
+#include "render/ray_maps/lobatto_rays.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {
@@ -20,7 +20,7 @@ inline LensState lens_at_f(const char* name, double f_number, double focal_lengt
   return bundled(name, settings);
 }
 
-// Rays of one ghost and light at one wavelength, ready for sheets.
+// Rays of one ghost and light at one wavelength, ready for ray sets.
 struct GhostScene {
   LensState lens;
   Ghost ghost;
@@ -42,16 +42,16 @@ struct GhostScene {
     return {path, tables.at(lambda_nm), {{0.0, 0.0, window.z_mm}, light.source}};
   }
 
-  [[nodiscard]] ray_maps::RaySheet sheet(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
-    ray_maps::SheetTracer tracer(packets(), light);
-    ray_maps::RaySheet sheet = tracer.trace(box, nodes, PacketPrecision::Double);
-    ray_maps::add_light(sheet, sheet.transmission, gain);
-    return sheet;
+  [[nodiscard]] ray_maps::LobattoRays ray_set(const Rectangle& box, int nodes, Rgb gain = {1, 1, 1}) const {
+    ray_maps::LobattoTracer tracer(packets(), light);
+    ray_maps::LobattoRays ray_set = tracer.trace(box, nodes, PacketPrecision::Double);
+    ray_maps::add_light(ray_set, ray_set.transmission, gain);
+    return ray_set;
   }
 
   // The ray through a point of the meridional entrance plane, traced in the lens's own coordinates.
   [[nodiscard]] RayRecord exact(Vec2 entrance_mm) const {
-    const Vec2 p = light.into_place(entrance_mm);
+    const Vec2 p = light.to_lens_frame(entrance_mm);
     return trace_recorded(path, {{p.x, p.y, window.z_mm}, direction});
   }
 };

@@ -21,9 +21,9 @@ std::vector<float> row_times(const std::vector<float>& row, const Matrix& m) {
 
 std::vector<double> random_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
   std::vector<double> points(count);
-  for (double& p : points) p = place(random);
+  for (double& p : points) p = coordinate(random);
   return points;
 }
 

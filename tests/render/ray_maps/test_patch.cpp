@@ -53,18 +53,18 @@ std::vector<double> rims_squared(const test::GhostScene& scene, const RayRecord&
 }
 
 // The error of a patch at points where no ray was traced.
-PatchError measured_error(const test::GhostScene& scene, const RaySheet& sheet, const Patch& patch, const Frame& frame,
-                          const Rgb& gain) {
+PatchError measured_error(const test::GhostScene& scene, const LobattoRays& ray_set, const Patch& patch,
+                          const Frame& frame, const Rgb& gain) {
   std::mt19937 random(29);
-  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
   PatchError worst;
   double largest = 0.0;
   for (int k = 0; k < 60; ++k) {
-    const Vec2 uv{place(random), place(random)};
-    const RayRecord record = scene.exact(entrance_at(sheet.box, uv));
+    const Vec2 uv{coordinate(random), coordinate(random)};
+    const RayRecord record = scene.exact(entrance_at(ray_set.box, uv));
     REQUIRE(record.ray.status == RayStatus::Ok);
     const Vec2 p = frame.pixel_from_sensor(record.ray.sensor_mm) - patch.origin_px;
-    const auto update = [](double& most, double off) { most = std::max(most, std::abs(off)); };
+    const auto update = [](double& error, double off) { error = std::max(error, std::abs(off)); };
     update(worst.position_px, value_at(patch, PatchLayout::kX, uv) - p.x);
     update(worst.position_px, value_at(patch, PatchLayout::kY, uv) - p.y);
     for (int c = 0; c < patch.layout.crossings; ++c) {
@@ -112,7 +112,7 @@ std::vector<test::GhostScene> scenes_of(const Case& c, std::size_t count) {
   std::vector<test::GhostScene> scenes;
   for (const Ghost ghost : enumerate_ghosts(lens, GhostScope::All)) {
     test::GhostScene scene(lens, ghost, direction);
-    if (scene.boxes.empty() || scene.sheet(scene.boxes.front(), 17).failed > 0) continue;
+    if (scene.boxes.empty() || scene.ray_set(scene.boxes.front(), 17).failed > 0) continue;
     scenes.push_back(std::move(scene));
     if (scenes.size() == count) break;
   }
@@ -132,11 +132,11 @@ TEST_CASE("a patch agrees with exact rays between its nodes as well as it says")
       const Frame frame = frame_on_sensor(scene.lens, 960, 540);
       for (const int nodes : {5, 9, 17}) {
         CAPTURE(nodes);
-        const RaySheet sheet = scene.sheet(scene.boxes.front(), nodes, gain);
-        const Patch patch = make_patch(sheet, scene.light, frame);
+        const LobattoRays ray_set = scene.ray_set(scene.boxes.front(), nodes, gain);
+        const Patch patch = make_patch(ray_set, scene.light, frame);
         CHECK(patch.layout.crossings == scene.path.stop_crossings);
         const PatchError said = estimated_error(patch);
-        const PatchError measured = measured_error(scene, sheet, patch, frame, gain);
+        const PatchError measured = measured_error(scene, ray_set, patch, frame, gain);
         // The constants are the error of packets of doubles with results in float.
         CHECK(measured.position_px <= 2.0 * said.position_px + 1e-4);
         CHECK(measured.stop <= 2.0 * said.stop + 1e-5);
@@ -149,44 +149,44 @@ TEST_CASE("a patch agrees with exact rays between its nodes as well as it says")
   }
 }
 
-TEST_CASE("a sheet half of which is mirrored is the sheet of all rays") {
+TEST_CASE("a ray set half of which is mirrored is the ray set of all rays") {
   const test::GhostScene scene = scenes_of(kCases[0], 1).front();
   const Rectangle& box = scene.boxes.front();
   REQUIRE(box.low.y == -box.high.y);
-  const RaySheet half = scene.sheet(box, 9);
+  const LobattoRays half = scene.ray_set(box, 9);
   Rectangle off = box;
   off.low.y = std::nextafter(off.low.y, 0.0);  // no longer its own mirror image, so traced in full
-  const RaySheet full = scene.sheet(off, 9);
+  const LobattoRays full = scene.ray_set(off, 9);
   for (std::size_t k = 0; k < half.count(); ++k) {
     CHECK(half.sensor_x_mm[k] == doctest::Approx(full.sensor_x_mm[k]).epsilon(1e-5));
     CHECK(half.sensor_y_mm[k] == doctest::Approx(full.sensor_y_mm[k]).epsilon(1e-5).scale(1.0));
     CHECK(half.weight[0][k] == doctest::Approx(full.weight[0][k]).epsilon(1e-4));
-    CHECK(half.r_rel[k] == doctest::Approx(full.r_rel[k]).epsilon(1e-5));
+    CHECK(half.relative_height[k] == doctest::Approx(full.relative_height[k]).epsilon(1e-5));
     for (std::size_t axis = 0; axis < 2; ++axis) {
       CHECK(half.stop[0][axis][k] == doctest::Approx(full.stop[0][axis][k]).epsilon(1e-5).scale(1.0));
     }
   }
 }
 
-TEST_CASE("a sheet turned over is the sheet of the box on the other side of the axis") {
+TEST_CASE("a ray set turned over is the ray set of the box on the other side of the axis") {
   const test::GhostScene scene = scenes_of(kCases[0], 1).front();
   Rectangle above = scene.boxes.front();
   above.low.y = 0.2 * above.high.y;
-  const RaySheet turned = mirrored(scene.sheet(above, 9));
-  const RaySheet traced = scene.sheet(mirrored(above), 9);
-  CHECK(turned.box == traced.box);
+  const LobattoRays rotated = mirrored(scene.ray_set(above, 9));
+  const LobattoRays traced = scene.ray_set(mirrored(above), 9);
+  CHECK(rotated.box == traced.box);
   const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
     REQUIRE(a.size() == b.size());
     for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k] == doctest::Approx(b[k]).epsilon(1e-4).scale(1e-2));
   };
-  same(turned.sensor_x_mm, traced.sensor_x_mm);
-  same(turned.sensor_y_mm, traced.sensor_y_mm);
-  same(turned.r_rel, traced.r_rel);
-  same(turned.rim_squared, traced.rim_squared);
-  for (std::size_t axis = 0; axis < 2; ++axis) same(turned.stop[0][axis], traced.stop[0][axis]);
-  for (std::size_t k = 0; k < turned.count(); ++k) {
-    CHECK(turned.weight[0][k] == doctest::Approx(traced.weight[0][k]).epsilon(1e-4));
-    CHECK(turned.transmission[k] == doctest::Approx(traced.transmission[k]).epsilon(1e-4));
+  same(rotated.sensor_x_mm, traced.sensor_x_mm);
+  same(rotated.sensor_y_mm, traced.sensor_y_mm);
+  same(rotated.relative_height, traced.relative_height);
+  same(rotated.rim_squared, traced.rim_squared);
+  for (std::size_t axis = 0; axis < 2; ++axis) same(rotated.stop[0][axis], traced.stop[0][axis]);
+  for (std::size_t k = 0; k < rotated.count(); ++k) {
+    CHECK(rotated.weight[0][k] == doctest::Approx(traced.weight[0][k]).epsilon(1e-4));
+    CHECK(rotated.transmission[k] == doctest::Approx(traced.transmission[k]).epsilon(1e-4));
   }
 }
 
@@ -195,13 +195,13 @@ TEST_CASE("quarters of a patch are the patch") {
     CAPTURE(nodes);
     const test::GhostScene scene = scenes_of(kCases[1], 1).front();
     const Frame frame = frame_on_sensor(scene.lens, 960, 540);
-    const Patch whole = make_patch(scene.sheet(scene.boxes.front(), nodes), scene.light, frame);
+    const Patch whole = make_patch(scene.ray_set(scene.boxes.front(), nodes), scene.light, frame);
     std::vector<double> scale;
     for (int f = 0; f < whole.layout.fields(); ++f) {
-      double most = 1e-3;
+      double largest = 1e-3;
       for (std::size_t k = 0; k < whole.size(); ++k)
-        most = std::max(most, std::abs(static_cast<double>(whole.field(f)[k])));
-      scale.push_back(most);
+        largest = std::max(largest, std::abs(static_cast<double>(whole.field(f)[k])));
+      scale.push_back(largest);
     }
     for (const auto& [ix, iy] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, 1}}) {
       const Patch part = quarter(whole, ix, iy);
@@ -223,27 +223,27 @@ TEST_CASE("cells between rays that arrived, each a patch of straight lines") {
   const Frame frame = frame_on_sensor(scene.lens, 960, 540);
   const Rectangle box = scene.boxes.front();
   // Corners of the box lie outside the round pupil: cells there are left out.
-  CHECK(patches_of_cells(scene.sheet(box, 17), scene.light, frame).size() < 256);
+  CHECK(patches_of_cells(scene.ray_set(box, 17), scene.light, frame).size() < 256);
   const Vec2 quarter = (box.high - box.low) * 0.25;
-  RaySheet sheet = scene.sheet({box.low + quarter, box.high - quarter}, 9);
-  const double whole = make_patch(sheet, scene.light, frame).flux_area_mm2;
+  LobattoRays ray_set = scene.ray_set({box.low + quarter, box.high - quarter}, 9);
+  const double whole = make_patch(ray_set, scene.light, frame).flux_area_mm2;
   const auto area_of = [&] {
     double sum = 0.0;
-    for (const Patch& p : patches_of_cells(sheet, scene.light, frame)) {
+    for (const Patch& p : patches_of_cells(ray_set, scene.light, frame)) {
       CHECK(p.nodes == 2);
       sum += p.flux_area_mm2;
     }
     return sum;
   };
-  CHECK(patches_of_cells(sheet, scene.light, frame).size() == 64);
+  CHECK(patches_of_cells(ray_set, scene.light, frame).size() == 64);
   CHECK(area_of() == doctest::Approx(whole));
-  // The corners of the last cell are the sheet's own rays.
-  const Patch last = patches_of_cells(sheet, scene.light, frame).back();
-  const Vec2 corner = frame.pixel_from_sensor(scene.exact(sheet.box.high).ray.sensor_mm);
+  // The corners of the last cell are the ray set's own rays.
+  const Patch last = patches_of_cells(ray_set, scene.light, frame).back();
+  const Vec2 corner = frame.pixel_from_sensor(scene.exact(ray_set.box.high).ray.sensor_mm);
   CHECK(last.field(PatchLayout::kX)[3] + last.origin_px.x == doctest::Approx(corner.x).epsilon(1e-5));
   CHECK(last.field(PatchLayout::kY)[3] + last.origin_px.y == doctest::Approx(corner.y).epsilon(1e-5));
 
-  sheet.r_rel[10] = INFINITY;  // row 1, column 1: four cells
-  CHECK(patches_of_cells(sheet, scene.light, frame).size() == 60);
+  ray_set.relative_height[10] = INFINITY;  // row 1, column 1: four cells
+  CHECK(patches_of_cells(ray_set, scene.light, frame).size() == 60);
   CHECK(area_of() < whole);
 }

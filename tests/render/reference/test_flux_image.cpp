@@ -25,7 +25,7 @@ double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.e
 
 }  // namespace
 
-TEST_CASE("every pixel gets the share of the polygon it covers") {
+TEST_CASE("every pixel gets the fraction of the polygon it covers") {
   FluxImage image(4, 4);
   const std::array<Vec2, 4> box{Vec2{0.5, 1.0}, Vec2{2.5, 1.0}, Vec2{2.5, 2.0}, Vec2{0.5, 2.0}};
   image.add_polygon(box, 8.0);
@@ -58,11 +58,11 @@ TEST_CASE("a triangle's coverage agrees with counting sub-pixel points") {
 
 TEST_CASE("no flux is lost inside the image, whatever the polygon's shape, size or orientation") {
   std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> place(2.0, 30.0);
+  std::uniform_real_distribution<double> coordinate(2.0, 30.0);
   for (int trial = 0; trial < 3000; ++trial) {
     const double size = std::pow(10.0, -8.0 + trial % 10);
     std::uniform_real_distribution<double> off(-size, size);
-    const Vec2 centre{place(random), place(random)};
+    const Vec2 centre{coordinate(random), coordinate(random)};
     const auto inside = [](double v) { return std::min(32.0, std::max(0.0, v)); };
     std::array<Vec2, 3> t;
     for (Vec2& p : t) p = {inside(centre.x + off(random)), inside(centre.y + off(random))};

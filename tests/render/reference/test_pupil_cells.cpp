@@ -58,11 +58,11 @@ RayCount count_rays(const Scene& scene, const Rectangle& where, int side, Packet
   const auto count = static_cast<std::size_t>(side);
   std::array<std::vector<float>, 6 + 2 * kMaxStopCrossings + 1> field;
   for (auto& f : field) f.resize(count);
-  auto& [x, y, sensor_x, sensor_y, transmission, r_rel, x0, x1, x2, y0, y1, y2, outside] = field;
+  auto& [x, y, sensor_x, sensor_y, transmission, relative_height, x0, x1, x2, y0, y1, y2, outside] = field;
   const TracedArrays out{sensor_x.data(),
                          sensor_y.data(),
                          transmission.data(),
-                         r_rel.data(),
+                         relative_height.data(),
                          {x0.data(), x1.data(), x2.data()},
                          {y0.data(), y1.data(), y2.data()},
                          nullptr,
@@ -78,10 +78,10 @@ RayCount count_rays(const Scene& scene, const Rectangle& where, int side, Packet
     trace_packets(packets, precision, x.data(), y.data(), count, out);
     for (std::size_t c = 0; c < static_cast<std::size_t>(scene.path.stop_crossings); ++c) {
       shape.distances(out.stop_x[c], out.stop_y[c], count, outside.data());
-      for (std::size_t k = 0; k < count; ++k) r_rel[k] = std::max(r_rel[k], outside[k] + 1.0F);
+      for (std::size_t k = 0; k < count; ++k) relative_height[k] = std::max(relative_height[k], outside[k] + 1.0F);
     }
     for (std::size_t k = 0; k < count; ++k) {
-      if (!(r_rel[k] <= 1.0F)) continue;
+      if (!(relative_height[k] <= 1.0F)) continue;
       counted.open.low = {std::min(counted.open.low.x, x[k] - 2.0 * step.x),
                           std::min(counted.open.low.y, y[k] - 2.0 * step.y)};
       counted.open.high = {std::max(counted.open.high.x, x[k] + 2.0 * step.x),
@@ -133,7 +133,7 @@ TEST_CASE("a pupil far smaller than a root cell is found wherever in it it lies"
   plate.surfaces = {{SurfaceKind::Refracting, 0.0, 2.0, 30.0, {"", ConstantIndex{1.5}}, {}, 0},
                     {SurfaceKind::Refracting, 0.0, 10.0, 30.0, air(), {}, 0},
                     {SurfaceKind::Stop, 0.0, 1.0, 20.0, air(), {}, 0}};
-  LensState lens = test::place(plate, 0.05);
+  LensState lens = test::configured(plate, 0.05);
   lens.sensor_z_mm = 20.0;
   const OpticalPath path = ghost_path(lens, {1, 2}, kGreen_nm);
   const double r = 0.04;

@@ -31,7 +31,7 @@ Frame small_frame(const LensState& lens, int width = 96) { return frame_on_senso
 
 }  // namespace
 
-TEST_CASE("a ghost with an affine map is a flat sheet with the closed form's level") {
+TEST_CASE("a ghost with an affine map is uniform with the closed form's level") {
   const LensState lens = test::plate();
   Frame frame{200, 200, 0, 0, 200, 200, 0.05};
   Light light;
@@ -67,7 +67,7 @@ TEST_CASE("doubling the density changes the picture by less than 55 dB [slow]") 
   CHECK(sum(once) / sum(twice) == doctest::Approx(1.0).epsilon(2e-3));
 }
 
-TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a rough trial gave") {
+TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a first trial gave") {
   const LensState heliar = bundled("heliar", {.f_number = 16.0});
   const test::Settings settings = green(small_frame(heliar));
   const Light light = light_at(heliar, settings.frame, {0.75, 0.5});
@@ -81,10 +81,10 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
   Frame frame = frame_on_sensor(lens, 90, 90);
   const test::Settings settings = green(frame);
   const Light right = light_at(lens, frame, {0.8, 0.45});
-  Light turned = right;
-  turned.direction = {right.direction.y, -right.direction.x, right.direction.z};
+  Light rotated = right;
+  rotated.direction = {right.direction.y, -right.direction.x, right.direction.z};
   const Image a = rendered(lens, {&right, 1}, settings);
-  const Image b = rendered(lens, {&turned, 1}, settings);
+  const Image b = rendered(lens, {&rotated, 1}, settings);
   // u' = 1 - v, v' = u: every ghost moves as the light does.
   Image back = a;
   for (int y = 0; y < 90; ++y) {
@@ -92,7 +92,7 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
       for (int c = 0; c < 3; ++c) back.at(x, y, c) = b.at(89 - y, x, c);
     }
   }
-  const Vec2 landed = frame.uv_from_sensor(chief_ray_image_point(lens, turned.direction, lens.design_wavelength_nm));
+  const Vec2 landed = frame.uv_from_sensor(chief_ray_image_point(lens, rotated.direction, lens.design_wavelength_nm));
   CHECK(landed.x == doctest::Approx(0.55).epsilon(1e-6));
   CHECK(landed.y == doctest::Approx(0.8).epsilon(1e-6));
   CHECK(psnr_db(a, back) > 60.0);

@@ -38,7 +38,7 @@ TEST_CASE("pixel and sensor coordinates are each other's inverse, in windows of 
   CHECK(whole.sensor_from_uv({0, 0}).y < 0.0);
 }
 
-TEST_CASE("a light asked for at a place in the frame has its direct image on that very pixel") {
+TEST_CASE("a light requested at a point of the frame has its direct image on that very pixel") {
   for (const char* name : {"heliar", "canon-70-200", "angenieux-double-gauss"}) {
     CAPTURE(name);
     const LensState lens = test::bundled(name, {.f_number = 16.0});

@@ -124,10 +124,10 @@ TEST_CASE("selections keep what they say") {
   CHECK(kept(SelectBrightest{100}).ghosts.size() == 28);
   CHECK(kept(SelectBrightest{0}).ghosts.empty());
   CHECK(kept(SelectList{{{1, 3}, {4, 5}}}).ghosts == std::vector<Ghost>{{1, 3}, {4, 5}});
-  const FramePlan most = kept(SelectByFlux{10.0});
-  CHECK(most.skipped_flux.value() <= 0.10);
-  CHECK(most.skipped_flux.value() > 0.0);
-  CHECK(most.ghosts.size() < 28);
+  const FramePlan largest = kept(SelectByFlux{10.0});
+  CHECK(largest.skipped_flux.value() <= 0.10);
+  CHECK(largest.skipped_flux.value() > 0.0);
+  CHECK(largest.ghosts.size() < 28);
   CHECK(kept(SelectByFlux{0.0}).skipped_flux == 0.0);
   CHECK(kept(SelectAll{}).skipped_flux == 0.0);
   for (const Ghost& g : kept(SelectSurface{4}).ghosts) CHECK((g.i == 4 || g.j == 4));
@@ -224,13 +224,13 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
       REQUIRE(planned.has_value());
       CHECK(planned->ghosts.size() < whole->ghosts.size());
       const Rgb kept = flux_of(*planned);
-      double most_lost = 0.0;
-      for (std::size_t c = 0; c < 3; ++c) most_lost = std::max(most_lost, 1.0 - kept[c] / all[c]);
-      CHECK(most_lost <= 0.01 * percent * 1.05);
+      double max_lost = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) max_lost = std::max(max_lost, 1.0 - kept[c] / all[c]);
+      CHECK(max_lost <= 0.01 * percent * 1.05);
       // Reddish ghosts are negative in blue: in sums they cancel, but what is left out counts in full.
-      CHECK(planned->skipped_flux.value() >= 0.95 * most_lost);
+      CHECK(planned->skipped_flux.value() >= 0.95 * max_lost);
       if (std::holds_alternative<IlluminantD65>(spectrum))
-        CHECK(planned->skipped_flux.value() == doctest::Approx(most_lost).epsilon(0.05).scale(0.01));
+        CHECK(planned->skipped_flux.value() == doctest::Approx(max_lost).epsilon(0.05).scale(0.01));
     }
   }
 }
@@ -243,7 +243,7 @@ Rgb sum_of(const Image& image) {
   return sum;
 }
 
-double most_lost(const Rgb& kept, const Rgb& all) {
+double max_lost(const Rgb& kept, const Rgb& all) {
   double lost = 0.0;
   for (std::size_t c = 0; c < 3; ++c) lost = std::max(lost, 1.0 - kept[c] / all[c]);
   return lost;
@@ -286,7 +286,7 @@ TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
     for (const GhostSelection& selection :
          {GhostSelection{SelectBrightest{3}}, GhostSelection{SelectByFlux{10.0}}, GhostSelection{SelectByFlux{2.0}}}) {
       const Flare some = drawn(selection);
-      const double lost = most_lost(sum_of(some.image), all);
+      const double lost = max_lost(sum_of(some.image), all);
       CAPTURE(lost);
       CHECK(some.statistics.ghosts_skipped_flux.value() == doctest::Approx(lost).epsilon(0.05).scale(0.03));
     }

@@ -57,7 +57,7 @@ std::vector<SessionFrame> changing_frames() {
   frames.push_back(frame_of("starburst", bundled("tessar", {.f_number = 8.0}), {0.4, 0.35}));
   frames.back().settings.starburst.on = true;
   frames.push_back(frame_of("wavelengths by need", bundled("tessar", {.f_number = 8.0}), {0.4, 0.35}));
-  frames.back().settings.wavelengths = kWavelengthsByNeed;
+  frames.back().settings.wavelengths = kAutoWavelengths;
   frames.push_back(frame_of("zoom", bundled("canon-70-200", {.focal_length_mm = 100.0, .f_number = 8.0}), {0.55, 0.5}));
   frames.push_back(
       frame_of("longer zoom", bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0}), {0.55, 0.5}));

@@ -28,17 +28,17 @@ LensSettings with_dirt(DirtPlane plane) {
   return settings;
 }
 
-// The transmittance of dirt for a ray at the place where it crosses the plane, from all strokes.
-double asked(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
-  double share = 1.0;
+// The transmittance of dirt for a ray at the point where it crosses the plane, from all strokes.
+double asked(const std::vector<DirtStroke>& strokes, Vec2 point_mm) {
+  double transmittance = 1.0;
   for (const DirtStroke& s : strokes)
-    if (s.distance_mm(place_mm) < 0.0) share *= 1.0 - s.opacity;
-  return share;
+    if (s.distance_mm(point_mm) < 0.0) transmittance *= 1.0 - s.opacity;
+  return transmittance;
 }
 
-double nearest_edge(const std::vector<DirtStroke>& strokes, Vec2 place_mm) {
+double nearest_edge(const std::vector<DirtStroke>& strokes, Vec2 point_mm) {
   double nearest = 1e9;
-  for (const DirtStroke& s : strokes) nearest = std::min(nearest, std::abs(s.distance_mm(place_mm)));
+  for (const DirtStroke& s : strokes) nearest = std::min(nearest, std::abs(s.distance_mm(point_mm)));
   return nearest;
 }
 
@@ -86,18 +86,18 @@ TEST_CASE("the exit pupil is dark where traced rays meet dirt, on the stop and o
           const TracedRay ray = trace(path, {{at.x, at.y, window.z_mm}, direction});
           if (ray.status != RayStatus::Ok || blocked_by(ray, path, lens.iris) > -0.02) continue;
           const Vec2 front = at + Vec2{direction.x, direction.y} * (-window.z_mm / direction.z);
-          const Vec2 place = plane == DirtPlane::Front ? front : ray.stop[0] * lens.stop_radius_mm;
-          const double share = asked(strokes, place);
+          const Vec2 point = plane == DirtPlane::Front ? front : ray.stop[0] * lens.stop_radius_mm;
+          const double transmittance = asked(strokes, point);
           all += ray.transmission;
-          passed += ray.transmission * share;
-          if (nearest_edge(strokes, place) < 0.02) continue;  // a sample's diagonal
+          passed += ray.transmission * transmittance;
+          if (nearest_edge(strokes, point) < 0.02) continue;  // a sample's diagonal
           const MaskGrid& grid = pupil->mask.grid;
           const Vec2 p = (Vec2{ray.direction.x, ray.direction.y} - pupil->middle) * (1.0 / grid.pitch_mm);
           const auto column = static_cast<std::size_t>(p.x + 0.5 * grid.side);
           const auto row = static_cast<std::size_t>(0.5 * grid.side - p.y);
           const bool lit = pupil->mask.amplitude[row * static_cast<std::size_t>(grid.side) + column] > 0.5F;
-          wrong += lit != (share > 0.5);
-          dark += share < 0.5;
+          wrong += lit != (transmittance > 0.5);
+          dark += transmittance < 0.5;
         }
       }
       CHECK(dark > 20);
@@ -128,17 +128,17 @@ TEST_CASE("a dirty lens's starburst sums to what dirt lets through") {
 TEST_CASE("frames follow one another smoothly, and a turn's end is its beginning") {
   LensSettings settings = with_dirt(DirtPlane::Front);
   const Vec3 direction = direction_from_angles(0.1, 0.05);
-  const auto at = [&](double time) {
-    settings.dirt.time = time;
+  const auto at = [&](double phase) {
+    settings.dirt.phase = phase;
     return starburst(test::bundled("planar-50", settings), direction, 64);
   };
   const Image still = at(0.0);
   CHECK(at(1.0).pixels == still.pixels);
   // At any frame, half the step causes about half the change: nothing jumps.
-  for (const double time : {0.0, 0.37, 0.999}) {
-    CAPTURE(time);
-    const Image here = at(time);
-    const double coarse = largest_difference(here, at(time + 2e-4)), fine = largest_difference(here, at(time + 1e-4));
+  for (const double phase : {0.0, 0.37, 0.999}) {
+    CAPTURE(phase);
+    const Image here = at(phase);
+    const double coarse = largest_difference(here, at(phase + 2e-4)), fine = largest_difference(here, at(phase + 1e-4));
     CHECK(coarse > 0.0);
     CHECK(fine < 0.05);
     CHECK(fine < 0.75 * coarse);
@@ -146,7 +146,7 @@ TEST_CASE("frames follow one another smoothly, and a turn's end is its beginning
   CHECK(largest_difference(still, at(0.3)) > 0.1);
 }
 
-TEST_CASE("a picture as dirt: black lets nothing through, white all, grey its share; upright on the front") {
+TEST_CASE("a picture as dirt: black lets nothing through, white all, grey its transmittance; upright on the front") {
   const auto picture = [](std::vector<float> levels, int width, int height) {
     LensSettings settings{.f_number = 8.0};
     settings.dirt.picture = DirtPicture::from_levels(levels, width, height).value();
@@ -179,7 +179,7 @@ TEST_CASE("no dirt is no dirt, bit for bit; threads do not matter; too much of i
   const Vec3 direction = direction_from_angles(0.2, 0.1);
   const Image clean = starburst(test::bundled("heliar", settings), direction, 48);
   settings.dirt.seed = 9;
-  settings.dirt.time = 0.3;
+  settings.dirt.phase = 0.3;
   settings.dirt.scratch_width_mm = 3.0;
   CHECK(starburst(test::bundled("heliar", settings), direction, 48).pixels == clean.pixels);
   settings.dirt.dust_per_cm2 = 40.0;

@@ -91,7 +91,8 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
         const TracedRay ray = trace(path, {{at.x, at.y, window.z_mm}, direction});
         if (ray.status != RayStatus::Ok) continue;
         const double blocked = blocked_by(ray, path, lens.iris);
-        const bool is_folded = std::max(blocked, ray.r_rel - 1.0) > 0.25 && ray.obscured <= 0.0;  // and refracted back
+        const bool is_folded =
+            std::max(blocked, ray.relative_height - 1.0) > 0.25 && ray.obscured <= 0.0;  // and refracted back
         if (std::abs(blocked) < sample || is_folded) continue;
         const Vec2 p = (Vec2{ray.direction.x, ray.direction.y} - pupil->middle) * (1.0 / pupil->mask.grid.pitch_mm);
         const int column = static_cast<int>(std::floor(p.x + 0.5 * pupil->mask.grid.side));

@@ -45,7 +45,7 @@ double flux_of(const Image& image, std::size_t channel) {
   return sum;
 }
 
-// A square frame about a place of the sensor.
+// A square frame about a point of the sensor.
 Frame window_about(Vec2 sensor_mm, int side, double pitch_mm) {
   Frame frame;
   frame.width = frame.height = side;
@@ -82,7 +82,7 @@ double first_zero(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("a light's starburst sums to its value, less what falls beside the frame") {
+TEST_CASE("a light's starburst sums to its value, less what falls outside the frame") {
   for (const double f_number : {8.0, 16.0}) {
     const LensState lens = test::bundled("heliar", {.f_number = f_number, .iris = {6, 0.1}});
     const test::Settings settings = starburst_alone(frame_on_sensor(lens, 500, 500));
@@ -168,7 +168,7 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
     chosen.iris.field = test::drawn_field(256, [&](Vec2 p) {
       return is_slit(p, 0.5) ? 1.0 : is_slit(p, -0.5) ? grey : 0.0;
     });
-    REQUIRE(chosen.iris.field->has_tones() == (grey < 1.0));
+    REQUIRE(chosen.iris.field->has_half_tones() == (grey < 1.0));
     const LensState lens = test::bundled("heliar", chosen);
     // They are a stop radius apart: fringes 2 lambda N wide, of 20 pixels.
     const double period_mm = 2.0 * 550e-6 * 16.0;
@@ -268,11 +268,11 @@ TEST_CASE(
     Light light;
     light.direction = direction_from_angles(c.azimuth_rad, c.elevation_rad);
     const double lambda_mm = 587.6e-6, pitch_mm = 3e-4;
-    const Vec2 landing = chief_ray_image_point(lens, light.direction, lens.design_wavelength_nm);
-    test::Settings settings = starburst_alone(window_about(landing, 48, pitch_mm));
+    const Vec2 image_point = chief_ray_image_point(lens, light.direction, lens.design_wavelength_nm);
+    test::Settings settings = starburst_alone(window_about(image_point, 48, pitch_mm));
     settings.lambda_nm = {587.6};
     const Image image = drawn(lens, light, settings);
-    const Vec2 centre = settings.frame.pixel_from_sensor(landing);
+    const Vec2 centre = settings.frame.pixel_from_sensor(image_point);
 
     std::vector<Vec2> cosines;
     std::vector<double> amplitude;
@@ -385,7 +385,7 @@ TEST_CASE("frames of one pixel, pixels of a nanometre and of a metre: finite, an
   for (const double pitch_mm : {1e-6, 1e-2, 1e3}) {
     for (const int side : {1, 7}) {
       test::Settings settings = starburst_alone({side, side, 0, 0, side, side, pitch_mm});
-      settings.glare.share = 0.1;
+      settings.glare.fraction = 0.1;
       const Image image = drawn(lens, Light{}, settings);
       if (pitch_mm > 1.0) CHECK(flux_of(image, 1) == doctest::Approx(1.0).epsilon(2e-3));
     }
@@ -400,8 +400,8 @@ TEST_CASE("frames of one pixel, pixels of a nanometre and of a metre: finite, an
   CHECK_FALSE(refused([](auto&) {}));
   CHECK(refused([](auto& s) { s.starburst.gain = -1.0; }));
   CHECK(refused([](auto& s) { s.starburst.gain = std::nan(""); }));
-  CHECK(refused([](auto& s) { s.glare.share = 1.5; }));
-  CHECK(refused([](auto& s) { s.glare.share = std::nan(""); }));
+  CHECK(refused([](auto& s) { s.glare.fraction = 1.5; }));
+  CHECK(refused([](auto& s) { s.glare.fraction = std::nan(""); }));
   CHECK(refused([](auto& s) { s.glare.width_rad = 0.0; }));
   CHECK(refused([](auto& s) { s.lambda_nm = {0.0}; }));
   CHECK(refused([](auto& s) { s.starburst.left_out = std::make_shared<const Image>(4, 8, 1); }));
@@ -441,21 +441,21 @@ TEST_CASE(
     CHECK((open < 0.95) == dirty);
     for (const double radius_rad : {0.0, 0.01}) {
       light.radius_rad = radius_rad;
-      for (const double share : {0.0, 0.1, 0.6, 1.0}) {
-        settings.glare.share = share;
+      for (const double fraction : {0.0, 0.1, 0.6, 1.0}) {
+        settings.glare.fraction = fraction;
         const Image image = drawn(lens, light, settings);
         for (std::size_t c = 0; c < 3; ++c)
           CHECK(flux_of(image, c) == doctest::Approx(light.value[c] * open).epsilon(2e-3));
       }
     }
     settings.starburst.on = false;
-    settings.glare.share = 0.1;
+    settings.glare.fraction = 0.1;
     light.radius_rad = 0.0;
     CHECK(flux_of(drawn(lens, light, settings), 0) == doctest::Approx(30.0 * open).epsilon(2e-3));
   }
 }
 
-TEST_CASE("glare has the share and the width that it says") {
+TEST_CASE("glare has the fraction and the width that it says") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0});
   for (const double width_rad : {0.0002, 0.02}) {
     test::Settings settings = starburst_alone(frame_on_sensor(lens, 401, 401));

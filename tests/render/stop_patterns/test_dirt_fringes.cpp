@@ -8,10 +8,10 @@
 
 #include "base/scalar.h"
 #include "diffraction/straight_edge.h"
-#include "render/stop_patterns/fringed_plane.h"
+#include "render/stop_patterns/dirt_diffraction.h"
 
 using namespace contrejour;
-using stop_patterns::FringedPlane;
+using stop_patterns::DirtDiffraction;
 
 namespace {
 
@@ -19,31 +19,31 @@ constexpr double kExtent_mm = 4.0;
 
 // Goodman 2005 eq. 4-17 without exp(i k z): each shape's wave; the caller combines overlapping shapes.
 std::complex<double> wave_by_points(const DirtStroke& stroke, Vec2 at, double lambda_z_mm2) {
-  const double reach = stroke.reach_mm();
-  const int steps = std::max(200, static_cast<int>(2.0 * reach / (0.02 * std::sqrt(lambda_z_mm2))));
-  const double pitch = 2.0 * reach / steps;
+  const double outer_radius = stroke.outer_radius_mm();
+  const int steps = std::max(200, static_cast<int>(2.0 * outer_radius / (0.02 * std::sqrt(lambda_z_mm2))));
+  const double pitch = 2.0 * outer_radius / steps;
   std::complex<double> sum = 0.0;
   for (int j = 0; j < steps; ++j)
     for (int i = 0; i < steps; ++i) {
-      const Vec2 s = stroke.middle_mm + Vec2{(i + 0.5) * pitch - reach, (j + 0.5) * pitch - reach};
+      const Vec2 s = stroke.middle_mm + Vec2{(i + 0.5) * pitch - outer_radius, (j + 0.5) * pitch - outer_radius};
       const Vec2 away = s - at;
       if (stroke.distance_mm(s) < 0.0) sum += std::polar(pitch * pitch, kPi * dot(away, away) / lambda_z_mm2);
     }
   return std::complex<double>(0.0, -1.0) * sum / lambda_z_mm2;
 }
 
-FringedPlane plane_of(const std::vector<DirtStroke>& strokes, double lambda_z_mm2, double extent_mm = kExtent_mm,
-                      double spread = 0.0) {
+DirtDiffraction plane_of(const std::vector<DirtStroke>& strokes, double lambda_z_mm2, double extent_mm = kExtent_mm,
+                         double spread = 0.0) {
   return {strokes, extent_mm, lambda_z_mm2, std::make_shared<const StraightEdge>(spread)};
 }
 
-std::vector<Vec2> places_about(const DirtStroke& stroke, double reach_mm) {
-  std::vector<Vec2> places;
+std::vector<Vec2> points_about(const DirtStroke& stroke, double outer_radius_mm) {
+  std::vector<Vec2> points;
   for (int k = 0; k < 40; ++k) {
-    const double angle = 2.4 * k, radius = reach_mm * std::sqrt((k + 0.5) / 40.0);
-    places.push_back(stroke.at(0.45 * std::sin(1.7 * k)) + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
+    const double angle = 2.4 * k, radius = outer_radius_mm * std::sqrt((k + 0.5) / 40.0);
+    points.push_back(stroke.at(0.45 * std::sin(1.7 * k)) + Vec2{radius * std::cos(angle), radius * std::sin(angle)});
   }
-  return places;
+  return points;
 }
 
 }  // namespace
@@ -60,23 +60,23 @@ TEST_CASE("specks and scratches as the integral over them has them") {
       {{{0.1, 0.1}, 0.0, 0.0, 0.8, 0.0, 1.0}, 0.01, 0.06},     // n of 16: its edge
       {{{0.0, 0.2}, 0.7, 2.0, 0.02, 0.0, 1.0}, 0.01, 0.02},    // a thin scratch
       {{{0.0, 0.2}, -0.5, 2.0, 0.2, 0.0, 0.8}, 0.01, 0.04},    // a broad one
-      {{{0.1, 0.0}, 0.9, 2.4, 0.05, 1.5, 1.0}, 0.01, 0.05},    // a bent one
+      {{{0.1, 0.0}, 0.9, 2.4, 0.05, 1.5, 1.0}, 0.01, 0.05},    // a curved one
   };
   for (const Case& c : cases) {
     CAPTURE(c.lambda_z_mm2);
     CAPTURE(c.stroke.width_mm);
     CAPTURE(c.stroke.length_mm);
-    const FringedPlane plane = plane_of({c.stroke}, c.lambda_z_mm2, 4000.0 * std::sqrt(c.lambda_z_mm2));
+    const DirtDiffraction plane = plane_of({c.stroke}, c.lambda_z_mm2, 4000.0 * std::sqrt(c.lambda_z_mm2));
     const double amplitude = 1.0 - std::sqrt(1.0 - c.stroke.opacity);
-    double squares = 0.0, least = 1.0;
-    const auto places = places_about(c.stroke, 0.5 * c.stroke.width_mm + 2.0 * std::sqrt(c.lambda_z_mm2));
-    for (const Vec2 at : places) {
+    double squares = 0.0, smallest = 1.0;
+    const auto points = points_about(c.stroke, 0.5 * c.stroke.width_mm + 2.0 * std::sqrt(c.lambda_z_mm2));
+    for (const Vec2 at : points) {
       const double expected = std::norm(1.0 - amplitude * wave_by_points(c.stroke, at, c.lambda_z_mm2));
       squares += std::pow(plane.level() * plane.transmission(at, 0.0) - expected, 2.0);
-      least = std::min(least, expected);
+      smallest = std::min(smallest, expected);
     }
-    CHECK(least < 0.9);
-    CHECK(std::sqrt(squares / static_cast<double>(places.size())) < c.tolerance);
+    CHECK(smallest < 0.9);
+    CHECK(std::sqrt(squares / static_cast<double>(points.size())) < c.tolerance);
   }
 }
 
@@ -89,9 +89,10 @@ TEST_CASE("samples are what they were sampled from") {
   dirt.scratch_width_mm = 0.05;
   dirt.scratch_bend_rad = 1.0;
   const auto strokes = dirt_within(dirt, {-kExtent_mm, -kExtent_mm}, {kExtent_mm, kExtent_mm});
-  for (const double unit : {0.05, 0.2, 0.6}) {
-    CAPTURE(unit);
-    const FringedPlane sampled = plane_of(strokes, unit * unit), direct = plane_of(strokes, unit * unit, 4000.0 * unit);
+  for (const double fringe_unit : {0.05, 0.2, 0.6}) {
+    CAPTURE(fringe_unit);
+    const DirtDiffraction sampled = plane_of(strokes, fringe_unit * fringe_unit),
+                          direct = plane_of(strokes, fringe_unit * fringe_unit, 4000.0 * fringe_unit);
     double squares = 0.0, varied = 0.0;
     for (int k = 0; k < 2000; ++k) {
       const Vec2 at{3.7 * std::sin(1.1 * k), 3.7 * std::sin(1.7 * k + 0.3)};
@@ -115,9 +116,9 @@ TEST_CASE("each shape takes as much light as its sharp shadow, near or far, weak
   const auto strokes = dirt_within(dirt, {-3.0, -3.0}, {3.0, 3.0});
   double covered = 0.0;
   for (const DirtStroke& s : strokes) covered += s.opacity * s.width_mm * (s.length_mm + 0.25 * kPi * s.width_mm);
-  for (const double unit : {0.03, 0.1, 0.3, 1.0}) {
-    CAPTURE(unit);
-    const FringedPlane plane = plane_of(strokes, unit * unit, 5.0, 0.05);
+  for (const double fringe_unit : {0.03, 0.1, 0.3, 1.0}) {
+    CAPTURE(fringe_unit);
+    const DirtDiffraction plane = plane_of(strokes, fringe_unit * fringe_unit, 5.0, 0.05);
     constexpr int kSide = 700;
     double sum = 0.0;
     for (int k = 0; k < kSide * kSide; ++k)
@@ -131,7 +132,7 @@ TEST_CASE("a place that is said to be clean is") {
   Dirt dirt;
   dirt.dust_per_cm2 = 20.0;
   const auto strokes = dirt_within(dirt, {-kExtent_mm, -kExtent_mm}, {kExtent_mm, kExtent_mm});
-  const FringedPlane plane = plane_of(strokes, 0.002);
+  const DirtDiffraction plane = plane_of(strokes, 0.002);
   int clean = 0;
   for (int k = 0; k < 400; ++k) {
     const Vec2 at{3.7 * std::sin(1.1 * k), 3.7 * std::sin(1.7 * k + 0.3)};

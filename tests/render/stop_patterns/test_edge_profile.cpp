@@ -12,16 +12,16 @@ using namespace contrejour::stop_patterns;
 TEST_CASE("one wavelength: a quarter at the edge, 1.370 at 1.2172, 0.778 at 1.8725") {
   const EdgeProfile edge(0.0);
   CHECK(edge.at(0.0, 0.0) == doctest::Approx(0.25).epsilon(2e-3));
-  double best = 0.0, best_t = 0.0, least = 2.0, least_t = 0.0;
+  double best = 0.0, best_t = 0.0, smallest = 2.0, min_t = 0.0;
   for (double t = 0.0; t < 2.3; t += 1e-3) {
     const double v = edge.at(t, 0.0);
     if (v > best) best = v, best_t = t;
-    if (t > 1.3 && v < least) least = v, least_t = t;
+    if (t > 1.3 && v < smallest) smallest = v, min_t = t;
   }
   CHECK(best == doctest::Approx(1.370).epsilon(2e-3));
   CHECK(best_t == doctest::Approx(1.2172).epsilon(0.01));
-  CHECK(least == doctest::Approx(0.778).epsilon(3e-3));
-  CHECK(least_t == doctest::Approx(1.8725).epsilon(0.01));
+  CHECK(smallest == doctest::Approx(0.778).epsilon(3e-3));
+  CHECK(min_t == doctest::Approx(1.8725).epsilon(0.01));
   CHECK(edge.at(-2.0, 0.0) == doctest::Approx(0.0120).epsilon(0.05));  // 1 / (2 pi^2 t^2), nearly
 }
 

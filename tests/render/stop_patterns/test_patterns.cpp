@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include "render/polygons/short_light.h"
+#include "render/polygons/packed_irradiance.h"
 #include "render/stop_patterns/band_texture.h"
 #include "render/stop_patterns/resampled.h"
 
@@ -43,13 +43,13 @@ TEST_CASE("a texture's mean over a square, wide or not, and nothing outside") {
 
 TEST_CASE("a pattern reaches as far as it is bright, and what lies beyond is known") {
   const PatternTexture discs = two_discs(2.0, 0.8, 1.5, 0.002F);
-  CHECK(discs.reach_above(0.01) == doctest::Approx(0.8).epsilon(0.06));
-  CHECK(discs.reach_above(0.001) == doctest::Approx(1.5).epsilon(0.03));
+  CHECK(discs.radius_above(0.01) == doctest::Approx(0.8).epsilon(0.06));
+  CHECK(discs.radius_above(0.001) == doctest::Approx(1.5).epsilon(0.03));
   const double area = std::numbers::pi * (1.5 * 1.5 - 0.8 * 0.8);
   CHECK(discs.squared_beyond(0.85) == doctest::Approx(0.002 * 0.002 * area).epsilon(0.1));
   CHECK(discs.squared_beyond(1.6) == 0.0);
   // Light whose loss would matter is kept, however dim.
-  CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).reach_above(0.2) > 1.4);
+  CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).radius_above(0.2) > 1.4);
 }
 
 TEST_CASE("lines about a pattern: all that is bright is within them, and little else") {
@@ -62,29 +62,30 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
       bar.push_back(std::abs(p.x) < 1.5 && std::abs(p.y) < 0.4 ? (p.x > 0.0 ? 1.0F : 0.05F) : 0.0F);
     }
   const PatternTexture texture(kSide, kExtent, bar);
-  const auto far = [](const PatternHull& hull, Vec2 to) {
-    double most = 10.0;  // the largest distance from the middle within all lines
-    for (std::size_t k = 0; k < PatternHull::kLines; ++k)
-      if (dot(PatternHull::normals()[k], to) > 1e-9)
-        most = std::min(most, hull.most(k) / dot(PatternHull::normals()[k], to));
-    return most;
+  const auto far = [](const BoundingPolygon& bounding_polygon, Vec2 to) {
+    double distance = 10.0;  // the largest distance from the middle within all lines
+    for (std::size_t k = 0; k < BoundingPolygon::kLines; ++k)
+      if (dot(BoundingPolygon::normals()[k], to) > 1e-9)
+        distance = std::min(distance, bounding_polygon.distance(k) / dot(BoundingPolygon::normals()[k], to));
+    return distance;
   };
-  const PatternHull all = texture.hull_above(0.01, 1.0), bright = texture.hull_above(0.2, 1.0);
-  for (const auto& hull : {all, bright}) {
-    CHECK(far(hull, {1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
-    CHECK(far(hull, {0.0, 1.0}) < 0.7);
-    for (const double y : {-0.38, 0.0, 0.38}) CHECK_FALSE(hull.misses({1.48, y}, 0.0));
+  const BoundingPolygon all = texture.bounding_polygon_above(0.01, 1.0),
+                        bright = texture.bounding_polygon_above(0.2, 1.0);
+  for (const auto& bounding_polygon : {all, bright}) {
+    CHECK(far(bounding_polygon, {1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
+    CHECK(far(bounding_polygon, {0.0, 1.0}) < 0.7);
+    for (const double y : {-0.38, 0.0, 0.38}) CHECK_FALSE(bounding_polygon.excludes({1.48, y}, 0.0));
   }
   CHECK(far(all, {-1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
   CHECK(far(bright, {-1.0, 0.0}) < 0.6);
-  CHECK(texture.hull_above(0.2, 1e-4).most(12) > 1.4);  // light whose loss would matter is kept
-  CHECK(bright.misses({-1.3, 0.0}, 0.2));
-  CHECK_FALSE(bright.misses({-1.3, 0.0}, 1.4));
+  CHECK(texture.bounding_polygon_above(0.2, 1e-4).distance(12) > 1.4);  // light whose loss would matter is kept
+  CHECK(bright.excludes({-1.3, 0.0}, 0.2));
+  CHECK_FALSE(bright.excludes({-1.3, 0.0}, 1.4));
   CHECK(texture.brightest_beyond(1.0) == doctest::Approx(1.0));
   CHECK(texture.brightest_beyond(1.8) == 0.0);
-  PatternHull both = bright;
-  both.hold(Vec2{-1.9, 0.0});
-  CHECK_FALSE(both.misses({-1.85, 0.0}, 0.0));
+  BoundingPolygon both = bright;
+  both.include(Vec2{-1.9, 0.0});
+  CHECK_FALSE(both.excludes({-1.85, 0.0}, 0.0));
 }
 
 TEST_CASE("a picture on another grid is what the texture says there") {
@@ -109,7 +110,7 @@ TEST_CASE("a picture on another grid is what the texture says there") {
 
 TEST_CASE("light in 16 bits: to 2^-13 of itself and of a 2^-15 of the largest, and nothing is nothing") {
   for (const float largest : {1.0F, 3.999F, 4.0F, 1e5F, 3e-9F}) {
-    const ShortLight coding(largest);
+    const PackedIrradiance coding(largest);
     CHECK(static_cast<double>(coding.none()) <= 0x1.001p-15 * 1.0005 * static_cast<double>(largest));
     CHECK(coding.light(0) == 0.0F);
     CHECK(coding.coded(0.0F) == 0);
@@ -120,13 +121,13 @@ TEST_CASE("light in 16 bits: to 2^-13 of itself and of a 2^-15 of the largest, a
       const double error = static_cast<double>(coding.light(coding.coded(light))) - static_cast<double>(light);
       worst = std::max(worst, std::abs(error) / static_cast<double>(light + coding.none()));
       // The encoding by which a table is read: the bits, shifted and offset.
-      const std::int32_t bits = (coding.coded(light) << ShortLight::kShift) + coding.lowest();
+      const std::int32_t bits = (coding.coded(light) << PackedIrradiance::kShift) + coding.lowest();
       REQUIRE(std::bit_cast<float>(bits) - coding.none() == coding.light(coding.coded(light)));
     }
     CHECK(worst < 0x1.01p-13);
     CHECK(worst > 0x1p-14);  // the mantissa is used in full
   }
-  CHECK(ShortLight(0.0F).light(ShortLight(0.0F).coded(0.0F)) == 0.0F);
+  CHECK(PackedIrradiance(0.0F).light(PackedIrradiance(0.0F).coded(0.0F)) == 0.0F);
 }
 
 TEST_CASE("a pattern of one wavelength is the texture's, coded") {
@@ -145,14 +146,14 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
     for (const int column : {0, 48, 95}) {
       const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
       const double sample = static_cast<double>(ramp[static_cast<std::size_t>(96 * row + column)]);
-      CHECK(static_cast<double>(ShortLight::of_lowest(level.lowest).light(table.pairs[at].here)) ==
+      CHECK(static_cast<double>(PackedIrradiance::of_lowest(level.lowest).light(table.pairs[at].here)) ==
             doctest::Approx(sample).epsilon(1.3e-4));
     }
   CHECK(table.pairs.front().here == 0);
   CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
 }
 
-TEST_CASE("about a place so wide that it is all of a pattern, it is as bright as that is") {
+TEST_CASE("about a square so wide that it is all of a pattern, it is as bright as that is") {
   constexpr int kSide = 48;  // halved down to 3
   std::vector<float> samples(kSide * kSide);
   for (int row = 20; row < 28; ++row)
@@ -161,9 +162,9 @@ TEST_CASE("about a place so wide that it is all of a pattern, it is as bright as
   PatternAtlas atlas;
   const BandTexture pattern(texture_table(std::array{&texture}), atlas);
   const double mean = 64.0 / 256.0;  // over the middle one of 3 x 3
-  for (const Vec2 place : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
+  for (const Vec2 point : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
     for (const double distance : {2.1, 3.0, 20.0})
-      CHECK(pattern.brightest(place, distance) == doctest::Approx(mean).epsilon(1e-3));
+      CHECK(pattern.brightest(point, distance) == doctest::Approx(mean).epsilon(1e-3));
   CHECK(pattern.brightest({-2.5, -0.5}, 0.2) < 1e-4);
   CHECK(pattern.brightest({0.1, 0.1}, 0.2) > 0.9);
 }
@@ -194,7 +195,7 @@ TEST_CASE("patterns side by side are each what they are alone") {
   CHECK(band.brightest({2.9, -2.9}, 0.05) > 0.0F);
   CHECK(band.brightest({0.0, 0.0}, 1e9) > 0.0F);
   CHECK(band.brightest({50.0, 0.0}, 0.01) >= 0.0F);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // places of rays that fail
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // points of rays that fail
   CHECK(band.brightest({kNone, kNone}, 0.01) >= 0.0F);
   CHECK(band.brightest({0.0, -0.1}, kNone) > 0.0F);
 }

@@ -49,7 +49,7 @@ Image image_with(RenderCache& cache, std::string_view method, const LensState& l
 TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integrals have it, inside the rim") {
   const Iris square{4, 0.25 * std::numbers::pi};
   const LensState lens = plate_of(kPlateRadius_mm, square);
-  const double unit_px = kPlateRadius_mm / std::sqrt(2.0 * 9.0 / (550e-6 * 12.0)) / 0.01;
+  const double fringe_unit_px = kPlateRadius_mm / std::sqrt(2.0 * 9.0 / (550e-6 * 12.0)) / 0.01;
   const double edge_px = kPlateRadius_mm * std::sqrt(0.5) / 0.01;  // from the axis
   const double level = kPlateFlux * 1e-4 / (2.0 * 9.0);
   const test::Settings settings = ringing(green({90, 12, 300 + static_cast<int>(edge_px) - 60, 294, 600, 600, 0.01}));
@@ -62,8 +62,8 @@ TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integ
       if (image.at(x, 6) > image.at(best, 6)) best = x;
     CHECK(image.at(best, 6) / level == doctest::Approx(1.370).epsilon(0.03));
     const double l = image.at(best - 1, 6), m = image.at(best, 6), r = image.at(best + 1, 6);
-    const double place_px = settings.frame.origin_x - 300 + best + 0.5 + 0.5 * (l - r) / (l - 2.0 * m + r);
-    CHECK((edge_px - place_px) / unit_px == doctest::Approx(1.2172).epsilon(0.03));
+    const double position_px = settings.frame.origin_x - 300 + best + 0.5 + 0.5 * (l - r) / (l - 2.0 * m + r);
+    CHECK((edge_px - position_px) / fringe_unit_px == doctest::Approx(1.2172).epsilon(0.03));
     // A quarter of the level at the edge itself.
     const double at_edge = edge_px - (settings.frame.origin_x - 300) - 0.5;
     const int left = static_cast<int>(at_edge);
@@ -83,8 +83,8 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
     for_each_method([&](const Bounds& bounds) {
       if (bounds.traits.is_slow && f > 100.0) return;
       const double sharp = sum(image_of(bounds, lens, Light{}, settings));
-      const double rung = sum(image_of(bounds, lens, Light{}, ringing(settings)));
-      CHECK(rung / sharp == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
+      const double node = sum(image_of(bounds, lens, Light{}, ringing(settings)));
+      CHECK(node / sharp == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
     });
   }
 }
@@ -99,8 +99,8 @@ TEST_CASE("ghosts whose cells are larger than the iris have light nowhere else [
     CAPTURE(ghost.i);
     settings.selection = SelectList{{ghost}};
     const Image sharp = image_of(bounds_of("adaptive"), lens, light, settings);
-    const Image rung = image_of(bounds_of("adaptive"), lens, light, ringing(settings));
-    CHECK(sum(rung) / sum(sharp) == doctest::Approx(1.0).epsilon(0.03));
+    const Image node = image_of(bounds_of("adaptive"), lens, light, ringing(settings));
+    CHECK(sum(node) / sum(sharp) == doctest::Approx(1.0).epsilon(0.03));
   }
 }
 
@@ -110,19 +110,19 @@ TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
   const test::Settings settings = green(square_frame(160, 8.0 * radius_mm / 80.0));
   for_each_method([&](const Bounds& bounds) {
     const Image sharp = image_of(bounds, lens, Light{}, settings);
-    const Image rung = image_of(bounds, lens, Light{}, ringing(settings));
+    const Image node = image_of(bounds, lens, Light{}, ringing(settings));
     double beyond = 0.0;
     for (int y = 0; y < 160; ++y) {
       for (int x = 0; x < 160; ++x) {
         const double r = std::hypot(x - 79.5, y - 79.5) / 10.0;  // stop radii
-        if (r > 1.2) beyond += rung.at(x, y);
-        if (r > 5.6) CHECK(rung.at(x, y) == 0.0F);
+        if (r > 1.2) beyond += node.at(x, y);
+        if (r > 5.6) CHECK(node.at(x, y) == 0.0F);
       }
     }
-    CHECK(beyond / (sum(rung) / 3.0) > 0.1);
+    CHECK(beyond / (sum(node) / 3.0) > 0.1);
     // 4 sin^2(pi F / 2) on the axis: 2 for F = 1.5 (Lommel).
-    CHECK(rung.at(80, 80) / sharp.at(80, 80) == doctest::Approx(2.0).epsilon(0.12));
-    CHECK(peak_of(rung) < 2.6 * sharp.at(80, 80));
+    CHECK(node.at(80, 80) / sharp.at(80, 80) == doctest::Approx(2.0).epsilon(0.12));
+    CHECK(peak_of(node) < 2.6 * sharp.at(80, 80));
   });
 }
 
@@ -151,14 +151,14 @@ TEST_CASE("methods agree [slow]") {
   check(lens, light_at(lens, settings.frame, {0.7, 0.33}), ringing(settings));
 }
 
-TEST_CASE("half-tones of a picture as the iris dim every place of a ghost, with fringes and without") {
+TEST_CASE("half-tones of a picture as the iris dim every point of a ghost, with fringes and without") {
   constexpr double kOpen = 0.9;  // stop radii
   const auto disc = [](Vec2 p) { return length(p) < kOpen ? 1.0 : 0.0; };
   const auto shaded = [](Vec2 p) { return length(p) < kOpen ? 0.6 + 0.4 * p.x : 0.0; };
   Iris plain, toned;
   plain.field = drawn_field(200, disc);
   toned.field = drawn_field(200, shaded);
-  REQUIRE(toned.field->has_tones());
+  REQUIRE(toned.field->has_half_tones());
   struct Case {
     RingingMode mode;
     double fresnel_number;

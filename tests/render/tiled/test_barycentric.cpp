@@ -25,7 +25,7 @@ struct Method {
 
 template <template <class> class Kind>
 std::array<double, 4> coordinates(const Quad& quad, Point p) {
-  const auto weights = Kind<double>(quad).at(k::seen_from(quad, p.x, p.y));
+  const auto weights = Kind<double>(quad).at(k::relative_to(quad, p.x, p.y));
   std::array<double, 4> out{};
   for (std::size_t i = 0; i < 4; ++i) out[i] = weights.w[i] / weights.total;
   return out;
@@ -128,6 +128,6 @@ TEST_CASE("two neighbours never both hold a point beside their edge, in float to
     const float x = ax + t * (bx - ax), y = ay + t * (by - ay);  // on the edge but for rounding
     const k::Quad<float> one{{ax, bx, bx, ax}, {ay, by, by, ay}};
     const k::Quad<float> other{{bx, ax, ax, bx}, {by, ay, ay, by}};
-    CHECK(k::seen_from(one, x, y).edge[0] == -k::seen_from(other, x, y).edge[0]);
+    CHECK(k::relative_to(one, x, y).edge[0] == -k::relative_to(other, x, y).edge[0]);
   }
 }

@@ -102,7 +102,7 @@ TEST_CASE("a ray that failed takes its triangles with it and no more") {
   const auto whole = build(grid, frame, merging(0, 0.0));
   const std::size_t middle = grid.at(20, 20);
   REQUIRE(grid.blocked[middle] <= 0.0F);
-  grid.r_rel[middle] = grid.blocked[middle] = std::numeric_limits<float>::infinity();
+  grid.relative_height[middle] = grid.blocked[middle] = std::numeric_limits<float>::infinity();
   grid.transmission[middle] = 0.0F;
   grid.sensor_x_mm[middle] = std::numeric_limits<float>::quiet_NaN();
   for (const int steps : {0, 4}) {

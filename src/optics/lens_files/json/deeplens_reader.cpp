@@ -157,10 +157,10 @@ class DeepLensReader {
   // DeepLens traces the aperture; its `fnum` may stem from another state of the lens.
   void compare_f_number(Prescription& lens) const {
     constexpr double kTolerance = 0.1;
-    const double told = root_["fnum"].number_or(0.0);
-    if (told > 0.0 && !(std::abs(lens.f_number / told - 1.0) <= kTolerance))
+    const double stated = root_["fnum"].number_or(0.0);
+    if (stated > 0.0 && !(std::abs(lens.f_number / stated - 1.0) <= kTolerance))
       lens.warnings.push_back(fmt::format("fnum is {:.4g} (line {}), while the aperture's whole opening gives f/{:.3g}",
-                                          told, root_["fnum"].line(), lens.f_number));
+                                          stated, root_["fnum"].line(), lens.f_number));
   }
 
   JsonErrors errors_;

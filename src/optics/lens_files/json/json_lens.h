@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens files in JSON of several programs, told apart by their keys.
+// Lens files in JSON of several programs, distinguished by their keys.
 #pragma once
 
 #include <string>

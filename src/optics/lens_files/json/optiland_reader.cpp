@@ -77,7 +77,7 @@ class OptilandReader {
   }
 
   void read_geometry(const JsonField& in, DesignSurface& surface) {
-    place(in["cs"], surface);
+    position(in["cs"], surface);
     const std::string type = plain(in["type"].text());
     const auto curvature = [&](const char* key) { return curvature_of_radius(in[key].number_or(0.0)); };
     surface.curvature = curvature("radius");
@@ -109,7 +109,7 @@ class OptilandReader {
   }
 
   // The pose of a surface in global coordinates: rotated about its own z, y and x, then moved.
-  void place(const JsonField& cs, DesignSurface& surface) {
+  void position(const JsonField& cs, DesignSurface& surface) {
     if (cs["reference_cs"].is_there())
       cs["reference_cs"].fail("coordinates that stand in others are not read; give them in the space of all",
                               ErrorCode::Unsupported);
@@ -120,8 +120,8 @@ class OptilandReader {
     for (const double number : {value("x"), value("y"), turns[0], turns[1], turns[2]})
       if (!std::isfinite(number)) return cs.fail("a place beside the axis, or a tilt, is infinite");
     for (int axis = 0; axis < 3; ++axis)
-      if (const double turn_rad = turns[static_cast<std::size_t>(axis)]; turn_rad != 0.0)
-        surface.own = surface.own.then(turn_about(axis, turn_rad));
+      if (const double rotation_rad = turns[static_cast<std::size_t>(axis)]; rotation_rad != 0.0)
+        surface.own = surface.own.then(rotation_about(axis, rotation_rad));
   }
 
   void set_thicknesses() {

@@ -127,7 +127,7 @@ class RoaReader {
       surface.shape.kind = ShapeKind::Toroid;
       surface.shape.curvature_x_per_mm = content["cR"].number_or(0.0);
       constexpr double kQuarterTurn_rad = 1.5707963267948966;
-      if (type == "XToroid") surface.shape.turn_rad = kQuarterTurn_rad;
+      if (type == "XToroid") surface.shape.rotation_rad = kQuarterTurn_rad;
     } else if (type != "Conic") {
       object.fail(fmt::format("the profile '{}' is not known; Spherical, Conic, EvenPolynomial, RadialPolynomial, "
                               "YToroid and XToroid are",
@@ -180,7 +180,7 @@ class RoaReader {
         design_.warnings.push_back(
             fmt::format("a rectangular obscuration (line {}) is not computed; light goes through", object.line()));
       } else {
-        surface.obscuration = {{opening->half_x, opening->half_y}, opening->centre, opening->turn_rad};
+        surface.obscuration = {{opening->half_x, opening->half_y}, opening->centre, opening->rotation_rad};
       }
     }
   }
@@ -191,8 +191,8 @@ class RoaReader {
     const JsonField content = content_of(object);
     DesignOpening opening;
     opening.line = object.line();
-    opening.turn_rad = rad_from_deg(content["rotation"].number_or(0.0));
-    if (!std::isfinite(opening.turn_rad)) {
+    opening.rotation_rad = rad_from_deg(content["rotation"].number_or(0.0));
+    if (!std::isfinite(opening.rotation_rad)) {
       content["rotation"].fail("is infinite");
       return std::nullopt;
     }

@@ -12,10 +12,10 @@ namespace contrejour::inline internal {
 namespace {
 
 // The largest radius, up to this one, at which the surface exists.
-double reached_mm(const Surface& surface, double most_mm) {
-  if (reaches(surface, most_mm)) return most_mm;
+double reached_mm(const Surface& surface, double max_mm) {
+  if (reaches(surface, max_mm)) return max_mm;
   constexpr int kHalvings = 50;
-  double low = 0.0, high = most_mm;
+  double low = 0.0, high = max_mm;
   for (int k = 0; k < kHalvings; ++k) {
     const double middle = 0.5 * (low + high);
     (reaches(surface, middle) ? low : high) = middle;
@@ -23,9 +23,9 @@ double reached_mm(const Surface& surface, double most_mm) {
   return low;
 }
 
-Vec2 turned(double turn_rad, Vec2 at) {
-  if (turn_rad == 0.0) return at;
-  const double c = std::cos(turn_rad), s = std::sin(turn_rad);
+Vec2 rotated(double rotation_rad, Vec2 at) {
+  if (rotation_rad == 0.0) return at;
+  const double c = std::cos(rotation_rad), s = std::sin(rotation_rad);
   return {c * at.x - s * at.y, s * at.x + c * at.y};
 }
 
@@ -35,7 +35,7 @@ void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, st
   surface.semi_diameter_mm = from.semi_diameter * unit_mm;
   if (from.obscuration.any())
     surface.obscuration = {from.obscuration.half_mm * unit_mm, from.obscuration.centre_mm * unit_mm,
-                           from.obscuration.turn_rad};
+                           from.obscuration.rotation_rad};
   if (!from.opening) return;
   const DesignOpening& opening = *from.opening;
   if (!(opening.half_x > 0.0 && opening.half_y > 0.0)) {
@@ -48,7 +48,7 @@ void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, st
     surface.aperture.kind = rectangle ? ApertureKind::Rectangle : ApertureKind::Ellipse;
     surface.aperture.half_mm = Vec2{opening.half_x, opening.half_y} * unit_mm;
     surface.aperture.centre_mm = opening.centre * unit_mm;
-    surface.aperture.turn_rad = opening.turn_rad;
+    surface.aperture.rotation_rad = opening.rotation_rad;
   }
   const double own = rectangle ? std::hypot(opening.half_x, opening.half_y) : std::max(opening.half_x, opening.half_y);
   double semi_mm = (own + length(opening.centre)) * unit_mm;
@@ -61,15 +61,15 @@ void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, st
                     opening.line, surface.semi_diameter_mm));
 }
 
-void turn_opening(double turn_rad, ClearAperture& aperture) {
+void rotate_opening(double rotation_rad, ClearAperture& aperture) {
   if (aperture.kind == ApertureKind::Disc) return;
-  aperture.turn_rad += turn_rad;
-  aperture.centre_mm = turned(turn_rad, aperture.centre_mm);
+  aperture.rotation_rad += rotation_rad;
+  aperture.centre_mm = rotated(rotation_rad, aperture.centre_mm);
 }
 
-void turn_opening(double turn_rad, Obscuration& obscuration) {
-  if (obscuration.half_mm.x != obscuration.half_mm.y) obscuration.turn_rad += turn_rad;
-  obscuration.centre_mm = turned(turn_rad, obscuration.centre_mm);
+void rotate_opening(double rotation_rad, Obscuration& obscuration) {
+  if (obscuration.half_mm.x != obscuration.half_mm.y) obscuration.rotation_rad += rotation_rad;
+  obscuration.centre_mm = rotated(rotation_rad, obscuration.centre_mm);
 }
 
 }  // namespace contrejour::inline internal

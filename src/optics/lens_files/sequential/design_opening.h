@@ -14,7 +14,7 @@ namespace contrejour::inline internal {
 void set_opening(const DesignSurface& from, double unit_mm, Surface& surface, std::vector<std::string>& warnings);
 
 // Rotates the opening of a surface that is rotated about its axis.
-void turn_opening(double turn_rad, ClearAperture& aperture);
-void turn_opening(double turn_rad, Obscuration& obscuration);
+void rotate_opening(double rotation_rad, ClearAperture& aperture);
+void rotate_opening(double rotation_rad, Obscuration& obscuration);
 
 }  // namespace contrejour::inline internal

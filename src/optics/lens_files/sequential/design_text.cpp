@@ -9,10 +9,10 @@
 
 namespace contrejour::inline internal {
 
-std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
+std::vector<std::string_view> words_of(std::string_view line, std::size_t max_size) {
   constexpr std::string_view kBlanks = " \t\r\v\f";
   std::vector<std::string_view> words;
-  while (words.size() < most) {
+  while (words.size() < max_size) {
     const std::size_t begin = line.find_first_not_of(kBlanks);
     if (begin == std::string_view::npos) break;
     line.remove_prefix(begin);
@@ -36,11 +36,11 @@ double nominal_focal_mm(std::string_view title) {
   return value > 0.0 ? value : 0.0;
 }
 
-std::string cut_text(std::string text, std::size_t most) {
-  if (text.size() <= most) return text;
-  std::size_t end = text.rfind(' ', most);
+std::string cut_text(std::string text, std::size_t max_size) {
+  if (text.size() <= max_size) return text;
+  std::size_t end = text.rfind(' ', max_size);
   if (end == std::string::npos || end == 0) {
-    end = most;
+    end = max_size;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   }
   return text.substr(0, end) + " ...";

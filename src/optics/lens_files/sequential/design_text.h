@@ -8,8 +8,8 @@
 
 namespace contrejour::inline internal {
 
-// The words between blanks, at most `most` of them.
-[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most = 64);
+// The words between blanks, at most `max_size` of them.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t max_size = 64);
 
 // "/a/b/cooke.zmx" -> "cooke": for files that name no lens.
 [[nodiscard]] std::string stem_of(const std::string& file);
@@ -18,6 +18,6 @@ namespace contrejour::inline internal {
 [[nodiscard]] double nominal_focal_mm(std::string_view title);
 
 // Truncates a long text, for the source of a lens, at a space.
-[[nodiscard]] std::string cut_text(std::string text, std::size_t most = 200);
+[[nodiscard]] std::string cut_text(std::string text, std::size_t max_size = 200);
 
 }  // namespace contrejour::inline internal

@@ -35,7 +35,7 @@ std::string plain_title(const std::string& text) {
   return out;
 }
 
-Tilts tilts_of(const Surface& surface, double turn_rad) {
+Tilts tilts_of(const Surface& surface, double rotation_rad) {
   const Vec3 axis = surface.pose.axis;
   Tilts tilts;
   tilts.y_rad = std::asin(std::clamp(axis.x, -1.0, 1.0));
@@ -43,22 +43,22 @@ Tilts tilts_of(const Surface& surface, double turn_rad) {
   const bool round = surface.shape.has_axial_symmetry() && surface.aperture.kind == ApertureKind::Disc &&
                      surface.obscuration.has_axial_symmetry();
   if (round) return tilts;
-  const Placement tilted = turn_about(0, tilts.x_rad).then(turn_about(1, tilts.y_rad));
-  tilts.z_rad = turn_rad - pose_of(tilted).turn_rad;
+  const Placement tilted = rotation_about(0, tilts.x_rad).then(rotation_about(1, tilts.y_rad));
+  tilts.z_rad = rotation_rad - pose_of(tilted).rotation_rad;
   return tilts;
 }
 
-ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad) {
+ClearAperture aperture_in_rotated(const ClearAperture& aperture, double rotation_rad) {
   ClearAperture own = aperture;
-  turn_opening(-turn_rad, own);
-  if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
+  rotate_opening(-rotation_rad, own);
+  if (std::abs(own.rotation_rad) < 1e-12) own.rotation_rad = 0.0;
   return own;
 }
 
-Obscuration obscuration_in_turned(const Obscuration& obscuration, double turn_rad) {
+Obscuration obscuration_in_rotated(const Obscuration& obscuration, double rotation_rad) {
   Obscuration own = obscuration;
-  turn_opening(-turn_rad, own);
-  if (std::abs(own.turn_rad) < 1e-12) own.turn_rad = 0.0;
+  rotate_opening(-rotation_rad, own);
+  if (std::abs(own.rotation_rad) < 1e-12) own.rotation_rad = 0.0;
   return own;
 }
 

@@ -28,11 +28,11 @@ namespace contrejour::inline internal {
 struct Tilts {
   double x_rad = 0, y_rad = 0, z_rad = 0;
 };
-[[nodiscard]] Tilts tilts_of(const Surface& surface, double turn_rad);
+[[nodiscard]] Tilts tilts_of(const Surface& surface, double rotation_rad);
 
 // The aperture in the coordinates of a rotated surface.
-[[nodiscard]] ClearAperture aperture_in_turned(const ClearAperture& aperture, double turn_rad);
-[[nodiscard]] Obscuration obscuration_in_turned(const Obscuration& obscuration, double turn_rad);
+[[nodiscard]] ClearAperture aperture_in_rotated(const ClearAperture& aperture, double rotation_rad);
+[[nodiscard]] Obscuration obscuration_in_rotated(const Obscuration& obscuration, double rotation_rad);
 
 // A glass of the bundled catalogue by the name that its maker gives it.
 struct CataloguedName {

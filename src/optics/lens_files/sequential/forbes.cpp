@@ -83,7 +83,7 @@ double forbes_departure(double curvature, double conic, const ForbesAsphere& asp
 // makes it vanish on the axis. The polynomials are then expanded in powers by T_(j + 1) = 2 (2 t - 1) T_j - T_(j - 1).
 std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, const ForbesAsphere& asphere,
                                              double reach) {
-  constexpr std::size_t kTerms = SurfaceShape::kHighestPower / 2, kLooks = 200;
+  constexpr std::size_t kTerms = SurfaceShape::kHighestPower / 2, kProbes = 200;
   const auto departure = [&](double t) { return forbes_departure(curvature, conic, asphere, reach * std::sqrt(t)); };
   const auto angle = [](std::size_t k) { return std::numbers::pi * (static_cast<double>(k) + 0.5) / kTerms; };
   using Terms = std::array<double, kTerms>;  // of 1, t, t^2, ...
@@ -107,8 +107,8 @@ std::optional<ForbesPowers> powers_of_forbes(double curvature, double conic, con
     here = next;
   }
   ForbesPowers out;
-  for (std::size_t k = 0; k <= kLooks; ++k) {
-    const double t = static_cast<double>(k) / kLooks;
+  for (std::size_t k = 0; k <= kProbes; ++k) {
+    const double t = static_cast<double>(k) / kProbes;
     double sum = 0.0;
     for (std::size_t p = kTerms; p-- > 0;) sum = sum * t + found[p];
     const double off = std::abs(sum * t - departure(t));

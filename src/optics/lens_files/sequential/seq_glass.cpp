@@ -121,7 +121,7 @@ Result<Glass> seq_glass(std::string_view word, std::string_view next, const SeqP
   if (word.empty() || capitals(word) == "AIR") return air();
   if (const Result<Glass>* glass = own.find(word)) {
     if (*glass) return **glass;
-    return failure(glass->error().code, glass->error().message, {file, glass->error().place.line, 0});
+    return failure(glass->error().code, glass->error().message, {file, glass->error().position.line, 0});
   }
   if (auto glass = fictitious(word)) return std::move(*glass);
   if (auto glass = by_number(word, next)) return std::move(*glass);

@@ -85,7 +85,7 @@ std::optional<double> last_number(const SeqCommand& command) {
 void set_shape(std::string_view name, SeqSurface& s) {
   if (name == "CYL" || name == "YTO" || name == "XTO") {
     s.kind = ShapeKind::Toroid;
-    s.turned = name == "XTO";
+    s.in_x = name == "XTO";
   } else if (name == "AAS") {
     s.kind = ShapeKind::Biconic;
   }
@@ -103,7 +103,7 @@ bool read_obscuration(std::string_view name, double value, Obscuration& obscurat
   } else if (name == "ADX" || name == "ADY") {
     (name == "ADX" ? obscuration.centre_mm.x : obscuration.centre_mm.y) = value;
   } else if (name == "ARO") {
-    obscuration.turn_rad = rad_from_deg(value);
+    obscuration.rotation_rad = rad_from_deg(value);
   } else if (name[0] == 'E') {
     (name[2] == 'X' ? obscuration.half_mm.x : obscuration.half_mm.y) = std::abs(value);
   } else {
@@ -135,7 +135,7 @@ std::optional<std::string> read_aperture(const SeqCommand& command, SeqSurface& 
   } else if (name == "ADX" || name == "ADY") {
     (name == "ADX" ? opening.centre.x : opening.centre.y) = *value;
   } else if (name == "ARO") {
-    opening.turn_rad = rad_from_deg(*value);
+    opening.rotation_rad = rad_from_deg(*value);
   } else {
     opening.shape = name[0] == 'R' ? OpeningShape::Rectangle : OpeningShape::Ellipse;
     (name[2] == 'X' ? opening.half_x : opening.half_y) = std::abs(*value);
@@ -266,9 +266,9 @@ Placement placement_of(const SeqSurface& in) {
     return at == in.moves.end() ? 0.0 : at->second;
   };
   Placement out{.shift = {move("XDE"), move("YDE"), move("ZDE")}};
-  if (const double a = move("ADE"); a != 0.0) out = out.then(turn_about(0, -rad_from_deg(a)));
-  if (const double b = move("BDE"); b != 0.0) out = out.then(turn_about(1, -rad_from_deg(b)));
-  if (const double c = move("CDE"); c != 0.0) out = out.then(turn_about(2, rad_from_deg(c)));
+  if (const double a = move("ADE"); a != 0.0) out = out.then(rotation_about(0, -rad_from_deg(a)));
+  if (const double b = move("BDE"); b != 0.0) out = out.then(rotation_about(1, -rad_from_deg(b)));
+  if (const double c = move("CDE"); c != 0.0) out = out.then(rotation_about(2, rad_from_deg(c)));
   return out;
 }
 
@@ -311,9 +311,9 @@ Result<DesignSurface> seq_design_surface(const SeqSurface& in, int index, const 
     set_powers(in, out.shape);
   }
   if (in.kind != ShapeKind::Revolution) out.shape.curvature_x_per_mm = in.curvature_x;
-  if (in.turned) {
+  if (in.in_x) {
     std::swap(out.curvature, out.shape.curvature_x_per_mm);
-    out.shape.turn_rad = 0.5 * std::numbers::pi;
+    out.shape.rotation_rad = 0.5 * std::numbers::pi;
   }
   const Placement placement = placement_of(in);
   if (!in.refused_move.empty() && !(placement == Placement{}))

@@ -28,7 +28,7 @@ struct SeqSurface {
   int glass_line = 0;
   bool is_stop = false;
   ShapeKind kind = ShapeKind::Revolution;
-  bool turned = false;  // XTO: the profile is in x
+  bool in_x = false;  // XTO: the profile is in x
   double curvature_x = 0;
   std::map<std::string, double, std::less<>> coefficients;  // K, A, B, ..., KX, KY
   std::map<std::string, double, std::less<>> moves;         // XDE, YDE, ZDE, ADE, BDE, CDE

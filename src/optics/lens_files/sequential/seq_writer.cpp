@@ -64,14 +64,15 @@ class Writer {
     const Surface& s = lens_.surfaces[k];
     const SurfaceShape& shape = s.shape;
     // CODE V has a type for a toroid rotated by a right angle; other rotations rotate the coordinates.
-    const bool crossed = shape.kind == ShapeKind::Toroid && shape.turn_rad == 0.5 * std::numbers::pi;
+    const bool crossed = shape.kind == ShapeKind::Toroid && shape.rotation_rad == 0.5 * std::numbers::pi;
     const double own = crossed ? shape.curvature_x_per_mm : s.curvature_per_mm;
     std::string out = "S     " + (own == 0.0 ? "0.0" : radius_text(own)) + " " + number_text(gap_mm) +
                       (design_.reflects(k) ? " REFL" : glass_text(s.glass_after)) + "\n";
     if (!radius_is_exact(own)) out += "  CUY " + number_text(own) + "\n";
     if (s.kind == SurfaceKind::Stop) out += "  STO\n";
-    const double turn_rad = crossed ? 0.0 : s.shape.turn_rad;
-    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, turn_rad) + obscuration_text(s, turn_rad);
+    const double rotation_rad = crossed ? 0.0 : s.shape.rotation_rad;
+    out += "  CIR " + number_text(s.semi_diameter_mm) + "\n" + rim_text(s, rotation_rad) +
+           obscuration_text(s, rotation_rad);
     const auto coefficients = shape_text(s, crossed);
     if (!coefficients) return coefficients;
     return out + *coefficients + decentre_text(s, crossed);
@@ -107,32 +108,32 @@ class Writer {
   }
 
   // The rim within the semi-diameter's circle, in the surface's coordinates, which may be rotated.
-  static std::string rim_text(const Surface& s, double turn_rad) {
-    const ClearAperture rim = aperture_in_turned(s.aperture, turn_rad);
+  static std::string rim_text(const Surface& s, double rotation_rad) {
+    const ClearAperture rim = aperture_in_rotated(s.aperture, rotation_rad);
     if (rim.kind == ApertureKind::Disc) return {};
     const char* name = rim.kind == ApertureKind::Rectangle ? "RE" : "EL";
     std::string out =
         fmt::format("  {0}X {1}; {0}Y {2}\n", name, number_text(rim.half_mm.x), number_text(rim.half_mm.y));
     if (!(rim.centre_mm == Vec2{}))
       out += fmt::format("  ADX {}; ADY {}\n", number_text(rim.centre_mm.x), number_text(rim.centre_mm.y));
-    if (rim.turn_rad != 0.0) out += "  ARO " + number_text(deg_from_rad(rim.turn_rad)) + "\n";
+    if (rim.rotation_rad != 0.0) out += "  ARO " + number_text(deg_from_rad(rim.rotation_rad)) + "\n";
     return out;
   }
 
-  static std::string obscuration_text(const Surface& s, double turn_rad) {
+  static std::string obscuration_text(const Surface& s, double rotation_rad) {
     if (!s.obscuration.any()) return {};
-    const Obscuration own = obscuration_in_turned(s.obscuration, turn_rad);
+    const Obscuration own = obscuration_in_rotated(s.obscuration, rotation_rad);
     const Vec2 half = own.half_mm, at = own.centre_mm;
     std::string out = half.x == half.y
                           ? fmt::format("  CIR OBS {}\n", number_text(half.x))
                           : fmt::format("  ELX OBS {}; ELY OBS {}\n", number_text(half.x), number_text(half.y));
     if (!(at == Vec2{})) out += fmt::format("  ADX OBS {}; ADY OBS {}\n", number_text(at.x), number_text(at.y));
-    if (own.turn_rad != 0.0) out += "  ARO OBS " + number_text(deg_from_rad(own.turn_rad)) + "\n";
+    if (own.rotation_rad != 0.0) out += "  ARO OBS " + number_text(deg_from_rad(own.rotation_rad)) + "\n";
     return out;
   }
 
   static std::string decentre_text(const Surface& s, bool crossed) {
-    const Tilts tilts = tilts_of(s, crossed ? 0.0 : s.shape.turn_rad);
+    const Tilts tilts = tilts_of(s, crossed ? 0.0 : s.shape.rotation_rad);
     const Vec3 shift = s.pose.shift_mm;
     if (s.pose == SurfacePose{} && tilts.z_rad == 0.0) return {};
     const auto move = [](const char* name, double value) {

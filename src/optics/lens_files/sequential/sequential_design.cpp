@@ -9,7 +9,7 @@
 
 #include "optics/lens_files/complete.h"
 #include "optics/lens_files/sequential/design_light.h"
-#include "optics/lens_files/sequential/design_places.h"
+#include "optics/lens_files/sequential/design_poses.h"
 #include "optics/lens_files/sequential/design_positions.h"
 #include "optics/lens_files/sequential/design_rows.h"
 #include "optics/lens_files/sequential/design_text.h"

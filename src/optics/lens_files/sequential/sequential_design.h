@@ -22,7 +22,7 @@ struct DesignOpening {
   OpeningShape shape = OpeningShape::Round;
   double half_x = 0, half_y = 0;  // radius of a round one: both
   Vec2 centre{};
-  double turn_rad = 0;  // from x towards y
+  double rotation_rad = 0;  // from x towards y
   double circle = 0;  // additional circle about the axis; 0: none
   int line = 0;
 };
@@ -41,7 +41,7 @@ struct DesignSurface {
   SurfaceShape shape;
   Glass glass_after = air();
   bool is_stop = false;
-  double semi_diameter = 0;     // 0: not told
+  double semi_diameter = 0;     // 0: not stated
   bool is_semi_fixed = false;   // by the designer; else computed by the program for its rays
   std::optional<DesignOpening> opening;
   Obscuration obscuration;      // in the file's units
@@ -72,7 +72,7 @@ struct SequentialDesign {
   FieldKind field = FieldKind::Angle_deg;
   double largest_field = 0;
   double largest_x = 0, largest_y = 0;  // of any field
-  double image_semi_diameter = 0;  // 0: not told
+  double image_semi_diameter = 0;  // 0: not stated
   bool is_focused = false;  // a solve puts the image surface at the paraxial focus
   std::optional<double> wavelength_nm;
   std::vector<std::string> warnings;

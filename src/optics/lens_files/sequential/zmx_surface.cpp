@@ -49,7 +49,7 @@ bool add_extended(const ZmxSurface& in, int step, SurfaceShape& shape) {
 Placement coordinate_break(const ZmxSurface& in) {
   Placement out;
   const Placement decentre{.shift = {in.parameter(1), in.parameter(2), 0.0}};
-  const auto tilt = [&](int axis) { return turn_about(axis, rad_from_deg(in.parameter(3 + axis))); };
+  const auto tilt = [&](int axis) { return rotation_about(axis, rad_from_deg(in.parameter(3 + axis))); };
   const bool tilts_first = in.parameter(6) != 0.0;
   for (const int axis : {0, 1, 2})
     if (const int k = tilts_first ? 2 - axis : axis; in.parameter(3 + k) != 0.0) out = out.then(tilt(k));
@@ -112,7 +112,7 @@ bool has_terms_beyond(const ZmxSurface& in, const NamedType& type) {
 // A plane that rises by these tangents along x and y.
 Placement tilted_plane(double along_x, double along_y) {
   const double slant = std::sqrt(1.0 + along_x * along_x + along_y * along_y);
-  return turn_about(0, std::atan(along_y)).then(turn_about(1, -std::asin(along_x / slant)));
+  return rotation_about(0, std::atan(along_y)).then(rotation_about(1, -std::asin(along_x / slant)));
 }
 
 // Forbes' asphere: XDAT 1 is 0 for Qbfs and 1 for Qcon, 2 the number of terms, 3 the norm radius, from 4 on Q_0, Q_1,

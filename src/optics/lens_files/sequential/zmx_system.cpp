@@ -96,8 +96,8 @@ void ZmxSystem::finish(SequentialDesign& design) const {
   const std::size_t primary = static_cast<std::size_t>(std::max(primary_, 1)) - 1;
   if (primary < wavelengths_um_.size() && wavelengths_um_[primary] > 0.0)
     design.wavelength_nm = wavelengths_um_[primary] * 1e3;
-  const std::size_t told = std::max(x_field_.size(), y_field_.size());
-  const std::size_t count = fields_ > 0 ? std::min(told, static_cast<std::size_t>(fields_)) : told;
+  const std::size_t stated = std::max(x_field_.size(), y_field_.size());
+  const std::size_t count = fields_ > 0 ? std::min(stated, static_cast<std::size_t>(fields_)) : stated;
   for (std::size_t k = 0; k < count; ++k)
     design.add_field(k < x_field_.size() ? x_field_[k] : 0.0, k < y_field_.size() ? y_field_[k] : 0.0);
   design.field = field_type_ == 1                       ? FieldKind::ObjectHeight

@@ -109,16 +109,16 @@ class Writer {
     if (!shape) return shape.error().message;
     // Zemax rotates coordinates, but neither shapes nor apertures.
     const bool rim_is_round = s.aperture.kind == ApertureKind::Disc;
-    const double turn_rad = !s.shape.has_axial_symmetry() ? s.shape.turn_rad
-                            : rim_is_round                ? s.obscuration.turn_rad
-                                                          : s.aperture.turn_rad;
+    const double rotation_rad = !s.shape.has_axial_symmetry() ? s.shape.rotation_rad
+                                : rim_is_round                ? s.obscuration.rotation_rad
+                                                              : s.aperture.rotation_rad;
     if (s.obscuration.any() && !rim_is_round)
       return "a rim that is no circle and an obscuration; a surface of Zemax has one aperture";
-    const auto rim = s.obscuration.any() ? obscuration_rows(s, turn_rad) : aperture_rows(k, turn_rad);
+    const auto rim = s.obscuration.any() ? obscuration_rows(s, rotation_rad) : aperture_rows(k, rotation_rad);
     if (!rim) return "its rim is turned otherwise than itself; Zemax has no such apertures";
     const std::string glass = design_.reflects(k) ? "  GLAS MIRROR 0 0 1.5 40 0 0 0 0 0 0\n" : glass_row(s);
     const std::string body = *shape + glass + *rim;
-    const bool displaced = !(s.pose == SurfacePose{}) || turn_rad != 0.0;
+    const bool displaced = !(s.pose == SurfacePose{}) || rotation_rad != 0.0;
     if (!displaced) {
       gap_at_.push_back({next_, 0.0});
       add(body, gap_mm);
@@ -131,7 +131,7 @@ class Writer {
           fmt::format("surface {}: its shift of {:g} mm along the axis is written as gaps", k + 1, along_mm));
       add("  TYPE STANDARD\n  CURV 0\n" + glass_row_before(k), along_mm);
     }
-    const Tilts tilts = tilts_of(s, turn_rad);
+    const Tilts tilts = tilts_of(s, rotation_rad);
     add_break(s.pose.shift_mm, tilts, false, 0.0);
     add(body, 0.0);
     gap_at_.push_back({next_, along_mm});
@@ -140,29 +140,29 @@ class Writer {
   }
 
   // DIAM and an obscuration.
-  static std::optional<std::string> obscuration_rows(const Surface& s, double turn_rad) {
-    const Obscuration own = obscuration_in_turned(s.obscuration, turn_rad);
+  static std::optional<std::string> obscuration_rows(const Surface& s, double rotation_rad) {
+    const Obscuration own = obscuration_in_rotated(s.obscuration, rotation_rad);
     const std::string semi = number_text(s.semi_diameter_mm);
     std::string out = fmt::format("  DIAM {} 1 0 0 1 \"\"\n", semi);
     if (own.has_axial_symmetry()) return out + fmt::format("  CLAP {} {} 0\n", number_text(own.half_mm.x), semi);
-    if (own.turn_rad != 0.0) return std::nullopt;
+    if (own.rotation_rad != 0.0) return std::nullopt;
     out += fmt::format("  ELOB {} {} 0\n", number_text(own.half_mm.x), number_text(own.half_mm.y));
     if (own.centre_mm == Vec2{}) return out;
     return out + fmt::format("  OBDC {} {}\n", number_text(own.centre_mm.x), number_text(own.centre_mm.y));
   }
 
   // DIAM and a rim that is no circle about the axis.
-  std::optional<std::string> aperture_rows(std::size_t k, double turn_rad) {
+  std::optional<std::string> aperture_rows(std::size_t k, double rotation_rad) {
     const Surface& s = lens_.surfaces[k];
     std::string out = fmt::format("  DIAM {} 1 0 0 1 \"\"\n", number_text(s.semi_diameter_mm));
     const Glass before = k == 0 ? air() : lens_.surfaces[k - 1].glass_after;
-    const ClearAperture rim = aperture_in_turned(s.aperture, turn_rad);
+    const ClearAperture rim = aperture_in_rotated(s.aperture, rotation_rad);
     if (rim.kind == ApertureKind::Disc) {
       if (s.kind == SurfaceKind::Refracting && s.glass_after == before)
         out += fmt::format("  CLAP 0 {} 0\n", number_text(s.semi_diameter_mm));
       return out;
     }
-    if (rim.turn_rad != 0.0) return std::nullopt;
+    if (rim.rotation_rad != 0.0) return std::nullopt;
     if (rims_of({rim.kind, rim.half_mm, rim.centre_mm, 0.0}, s.semi_diameter_mm).size() >
         rims_of({rim.kind, rim.half_mm, rim.centre_mm, 0.0}, 1e9).size())
       written_.losses.push_back(
@@ -266,7 +266,7 @@ class Writer {
       out +=
           fmt::format("LTTL 0 {} \"{} mm\" 0 0 0 1 1 0 0.0 \"\"\n", p + 1, number_text(lens_.zoom[p].focal_length_mm));
     const auto operand = [&](std::size_t row, std::size_t position, double gap_mm) {
-      const GapPlace& at = gap_at_[row];
+      const GapPosition& at = gap_at_[row];
       out += fmt::format("THIC {} {} {} 0 0 0 1 1 0 0.0 \"\"\n", at.surface, position + 1,
                          number_text(gap_mm - at.less_mm));
     };
@@ -280,7 +280,7 @@ class Writer {
     return out;
   }
 
-  struct GapPlace {
+  struct GapPosition {
     int surface = 0;
     double less_mm = 0;  // reduces the gap by a shift along the axis
   };
@@ -292,7 +292,7 @@ class Writer {
   std::vector<std::string> makers_;
   std::string rows_;
   int next_ = 1;
-  std::vector<GapPlace> gap_at_;
+  std::vector<GapPosition> gap_at_;
 };
 
 }  // namespace

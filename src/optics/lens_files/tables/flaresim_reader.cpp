@@ -231,10 +231,10 @@ class FlareSimReader {
 
   // The converter from Optical Bench writes diameters under the heading semi_ap.
   void choose_heights() {
-    const HeightMeaning told = from_optical_bench_ ? HeightMeaning::Diameter : HeightMeaning::SemiDiameter;
-    const HeightMeaning meaning = meaning_of_heights(lens_, f_number_, told);
+    const HeightMeaning stated = from_optical_bench_ ? HeightMeaning::Diameter : HeightMeaning::SemiDiameter;
+    const HeightMeaning meaning = meaning_of_heights(lens_, f_number_, stated);
     apply_heights(lens_, meaning);
-    if (meaning == told) return;
+    if (meaning == stated) return;
     const int line = lens_.surfaces.front().source_line;
     lens_.warnings.push_back(
         fmt::format("column semi_ap (line {} on) holds {}", line,

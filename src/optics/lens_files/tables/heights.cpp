@@ -56,11 +56,11 @@ bool fits(const Prescription& lens, double fraction) {
 
 }  // namespace
 
-HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number, HeightMeaning told) {
+HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number, HeightMeaning stated) {
   if (f_number) {
     if (const auto meaning = meaning_of_stop(lens, *f_number)) return *meaning;
   }
-  if (told == HeightMeaning::SemiDiameter && fits(lens, kMinRimFraction)) return told;
+  if (stated == HeightMeaning::SemiDiameter && fits(lens, kMinRimFraction)) return stated;
   return fits(lens, 0.5 * kMinRimFraction) ? HeightMeaning::Diameter : HeightMeaning::Unusable;
 }
 

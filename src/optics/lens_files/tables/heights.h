@@ -20,7 +20,7 @@ enum class HeightMeaning { SemiDiameter, Diameter, Unusable };
 //   their rims;
 // - else diameters, if they pass this test; else they are unusable.
 [[nodiscard]] HeightMeaning meaning_of_heights(const Prescription& lens, std::optional<double> f_number,
-                                               HeightMeaning told = HeightMeaning::SemiDiameter);
+                                               HeightMeaning stated = HeightMeaning::SemiDiameter);
 
 // Converts the heights to semi-diameters; unusable ones become 0, which completed() sizes for a beam.
 void apply_heights(Prescription& lens, HeightMeaning meaning);

@@ -153,14 +153,14 @@ class LensXmlReader {
   // All files state the factor 0.5, although some heights are radii.
   void warn_of_heights(HeightMeaning meaning) {
     const pugi::xml_node multiplier = system_.child("heightMultiplier");
-    const double told = number_or(system_, "heightMultiplier", 1.0);
+    const double stated = number_or(system_, "heightMultiplier", 1.0);
     const double taken = meaning == HeightMeaning::SemiDiameter ? 1.0 : meaning == HeightMeaning::Diameter ? 0.5 : 0.0;
-    if (taken == told) return;
+    if (taken == stated) return;
     if (meaning == HeightMeaning::SemiDiameter) {
       lens_.warnings.push_back(fmt::format(
           "heights are taken for semi-diameters, as which surfaces fit; a heightMultiplier of {:g} (line {}) "
           "is not followed",
-          told, line_of(multiplier)));
+          stated, line_of(multiplier)));
     } else {
       lens_.warnings.push_back(fmt::format(
           "heights (line {} on) {}", lens_.surfaces.front().source_line,

@@ -14,11 +14,11 @@ constexpr double kLargestCoefficient = 1e30;
 constexpr NumberRange kFiniteCoefficient{-kLargestCoefficient, kLargestCoefficient};
 constexpr std::size_t kMaxNumbers = 100000;
 
-std::vector<double> read_list(TomlFields& fields, std::string_view key, std::size_t least, std::size_t most) {
+std::vector<double> read_list(TomlFields& fields, std::string_view key, std::size_t min, std::size_t max) {
   std::vector<double> values;
   const toml::array* list = fields.array(key);
-  if (list == nullptr || list->size() < least || list->size() > most) {
-    const std::string how_many = least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+  if (list == nullptr || list->size() < min || list->size() > max) {
+    const std::string how_many = min == max ? fmt::format("{}", min) : fmt::format("{} to {}", min, max);
     fields.fail_here(fmt::format("{} must be a list of {} numbers", key, how_many));
     return values;
   }

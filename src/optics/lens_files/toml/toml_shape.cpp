@@ -46,7 +46,7 @@ std::vector<double> read_powers(TomlFields& row, TomlErrors& errors) {
   return powers;
 }
 
-double read_turn(TomlFields& fields) {
+double read_rotation(TomlFields& fields) {
   if (fields.has("turn_deg") && fields.has("turn_rad")) {
     fields.fail_here("give either turn_deg or turn_rad");
     return 0.0;
@@ -61,11 +61,11 @@ Vec3 axis_of_tilt(double about_x_deg, double about_y_deg) {
 }
 
 // [x, y] or [x, y, z].
-Vec3 read_vector(TomlFields& fields, std::string_view key, std::size_t fewest, NumberRange range) {
+Vec3 read_vector(TomlFields& fields, std::string_view key, std::size_t min_count, NumberRange range) {
   const toml::array* list = fields.array(key);
   if (list == nullptr) return {};
-  if (list->size() < fewest || list->size() > 3) {
-    fields.fail(*list, fmt::format("{} must be a list of {} numbers", key, fewest == 3 ? "3" : "2 or 3"));
+  if (list->size() < min_count || list->size() > 3) {
+    fields.fail(*list, fmt::format("{} must be a list of {} numbers", key, min_count == 3 ? "3" : "2 or 3"));
     return {};
   }
   std::array<double, 3> v{};
@@ -94,14 +94,14 @@ Vec3 read_axis(TomlFields& fields) {
 }
 
 // Enough digits to read the same angle back, if a number in degrees gives it.
-std::string turn_text(double turn_rad) {
+std::string rotation_text(double rotation_rad) {
   for (int digits = 1; digits <= 17; ++digits) {
-    const std::string text = fmt::format("{:.{}g}", deg_from_rad(turn_rad), digits);
+    const std::string text = fmt::format("{:.{}g}", deg_from_rad(rotation_rad), digits);
     double deg = 0.0;
     std::from_chars(text.data(), text.data() + text.size(), deg);
-    if (rad_from_deg(deg) == turn_rad) return "turn_deg = " + text;
+    if (rad_from_deg(deg) == rotation_rad) return "turn_deg = " + text;
   }
-  return "turn_rad = " + toml_number(turn_rad);
+  return "turn_rad = " + toml_number(rotation_rad);
 }
 
 std::string vector_text(Vec3 v) {
@@ -144,7 +144,7 @@ void read_group(const toml::table& table, std::size_t index, std::vector<Surface
 // The outline of a rim or of an obscuration.
 struct Outline {
   Vec2 half_mm, centre_mm;
-  double turn_rad = 0.0;
+  double rotation_rad = 0.0;
 };
 
 std::optional<Outline> read_outline(TomlFields& row, std::string_view name, const std::string& sides,
@@ -157,7 +157,7 @@ std::optional<Outline> read_outline(TomlFields& row, std::string_view name, cons
   Outline outline;
   outline.half_mm = read_pair(fields, sides);
   outline.centre_mm = read_pair(fields, "centre_mm");
-  outline.turn_rad = read_turn(fields);
+  outline.rotation_rad = read_rotation(fields);
   return outline;
 }
 
@@ -165,7 +165,7 @@ std::string outline_text(std::string_view name, std::string_view sides, const Ou
   const auto pair = [](Vec2 v) { return fmt::format("[{}, {}]", toml_number(v.x), toml_number(v.y)); };
   std::string out = fmt::format(", {} = {{ {} = {}", name, sides, pair(outline.half_mm));
   if (!(outline.centre_mm == Vec2{})) out += ", centre_mm = " + pair(outline.centre_mm);
-  if (outline.turn_rad != 0.0) out += ", " + turn_text(outline.turn_rad);
+  if (outline.rotation_rad != 0.0) out += ", " + rotation_text(outline.rotation_rad);
   return out + " }";
 }
 
@@ -199,7 +199,7 @@ SurfaceShape read_shape(TomlFields& row, TomlErrors& errors) {
                       errors);
     shape.kind = ShapeKind::Toroid;
     shape.curvature_x_per_mm = read_curvature(toroid, "_x");
-    shape.turn_rad = read_turn(toroid);
+    shape.rotation_rad = read_rotation(toroid);
   }
   if (const toml::table* table = row.table("biconic")) {
     TomlFields biconic(*table, row.what() + ", biconic",
@@ -207,7 +207,7 @@ SurfaceShape read_shape(TomlFields& row, TomlErrors& errors) {
     shape.kind = ShapeKind::Biconic;
     shape.curvature_x_per_mm = read_curvature(biconic, "_x");
     shape.conic_x = biconic.number("conic_x", kFinite).value_or(0.0);
-    shape.turn_rad = read_turn(biconic);
+    shape.rotation_rad = read_rotation(biconic);
     if (row.has("asphere")) row.fail(*row.find("asphere"), "a biconic has no asphere; leave the one or the other out");
   }
   return shape;
@@ -217,7 +217,7 @@ ClearAperture read_aperture(TomlFields& row, TomlErrors& errors) {
   if (row.has("ellipse") && row.has("rectangle")) row.fail_here("a rim is an ellipse or a rectangle, not both");
   ClearAperture aperture;
   const auto take = [&](const std::optional<Outline>& outline, ApertureKind kind) {
-    if (outline) aperture = {kind, outline->half_mm, outline->centre_mm, outline->turn_rad};
+    if (outline) aperture = {kind, outline->half_mm, outline->centre_mm, outline->rotation_rad};
   };
   take(read_outline(row, "ellipse", "semi_axes_mm", errors), ApertureKind::Ellipse);
   take(read_outline(row, "rectangle", "half_sides_mm", errors), ApertureKind::Rectangle);
@@ -226,7 +226,7 @@ ClearAperture read_aperture(TomlFields& row, TomlErrors& errors) {
 
 Obscuration read_obscuration(TomlFields& row, TomlErrors& errors) {
   const auto outline = read_outline(row, "obscuration", "semi_axes_mm", errors);
-  return outline ? Obscuration{outline->half_mm, outline->centre_mm, outline->turn_rad} : Obscuration{};
+  return outline ? Obscuration{outline->half_mm, outline->centre_mm, outline->rotation_rad} : Obscuration{};
 }
 
 SurfacePose read_pose(TomlFields& fields, TomlErrors& errors) {
@@ -282,12 +282,12 @@ std::string shape_text(const SurfaceShape& shape) {
   const bool biconic = shape.kind == ShapeKind::Biconic;
   out += fmt::format(", {} = {{ {}", biconic ? "biconic" : "toroid", curvature_text(shape.curvature_x_per_mm, "_x"));
   if (shape.conic_x != 0.0) out += ", conic_x = " + toml_number(shape.conic_x);
-  if (shape.turn_rad != 0.0) out += ", " + turn_text(shape.turn_rad);
+  if (shape.rotation_rad != 0.0) out += ", " + rotation_text(shape.rotation_rad);
   return out + " }";
 }
 
 std::string aperture_text(const ClearAperture& aperture) {
-  const Outline outline{aperture.half_mm, aperture.centre_mm, aperture.turn_rad};
+  const Outline outline{aperture.half_mm, aperture.centre_mm, aperture.rotation_rad};
   switch (aperture.kind) {
     case ApertureKind::Disc: return {};
     case ApertureKind::Ellipse: return outline_text("ellipse", "semi_axes_mm", outline);
@@ -297,7 +297,8 @@ std::string aperture_text(const ClearAperture& aperture) {
 }
 
 std::string obscuration_text(const Obscuration& o) {
-  return o.any() ? outline_text("obscuration", "semi_axes_mm", {o.half_mm, o.centre_mm, o.turn_rad}) : std::string();
+  return o.any() ? outline_text("obscuration", "semi_axes_mm", {o.half_mm, o.centre_mm, o.rotation_rad})
+                 : std::string();
 }
 
 std::string pose_text(const SurfacePose& pose) {

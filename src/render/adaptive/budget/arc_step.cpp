@@ -11,32 +11,33 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kChordShare = 0.5;  // fraction of a cell's error that chords in place of an arc may make
-constexpr double kLeastOfChord_px = 0.02;  // smaller distances are not asked for
+constexpr double kChordFraction = 0.5;  // fraction of a cell's error that chords in place of an arc may make
+constexpr double kMinChordDistance_px = 0.02;  // smaller distances are not asked for
 constexpr double kShortestArcStep = 0.02, kLongestArcStep = 0.8;  // radians
 
 }  // namespace
 
-double arc_step(const BandContext& band, const Mesh& mesh, std::span<const CellCorner> corners, const Shade& shade,
-                double cell_budget) {
-  double reach = 0.0;
+double arc_step(const BandContext& band, const Mesh& mesh, std::span<const CellCorner> corners,
+                const LinearIrradiance& irradiance, double cell_budget) {
+  double extent = 0.0;
   Bounds b;
   for (const CellCorner& corner : corners) {
     b.add(mesh.position(corner.vertex));
     for (int f = PatchLayout::kStop; f < mesh.layout.rim(0); ++f) {
       const Mesh::Field& stop = mesh.field(f);
-      reach = std::max(reach, std::abs(static_cast<double>(stop[corner.vertex]) - stop[corners[0].vertex]));
+      extent = std::max(extent, std::abs(static_cast<double>(stop[corner.vertex]) - stop[corners[0].vertex]));
     }
   }
   const double longest = std::max(b.size().x, b.size().y);
-  const double level = std::max({std::abs(shade.value[0]), std::abs(shade.value[1]), std::abs(shade.value[2])});
-  const double seen = level * seen_share(level, band.peak);
-  const double most_px = level > kFacetLevel * band.peak ? kMostOfSeenChord_px : kMostOfChord_px;
-  const double off_px =
-      std::clamp(kChordShare * std::sqrt(cell_budget / std::max(longest, 1.0)) / std::max(seen, 1e-300),
-                 kLeastOfChord_px, most_px);
-  const double pixels_per_radius = longest / std::max(reach, 1e-9);
-  return std::clamp(std::sqrt(8.0 * off_px / pixels_per_radius), kShortestArcStep, kLongestArcStep);
+  const double level =
+      std::max({std::abs(irradiance.value[0]), std::abs(irradiance.value[1]), std::abs(irradiance.value[2])});
+  const double visible = level * peak_limited_weight(level, band.peak);
+  const double max_px = level > kFacetLevel * band.peak ? kMaxVisibleChordDistance_px : kMaxChordDistance_px;
+  const double displacement_px =
+      std::clamp(kChordFraction * std::sqrt(cell_budget / std::max(longest, 1.0)) / std::max(visible, 1e-300),
+                 kMinChordDistance_px, max_px);
+  const double pixels_per_radius = longest / std::max(extent, 1e-9);
+  return std::clamp(std::sqrt(8.0 * displacement_px / pixels_per_radius), kShortestArcStep, kLongestArcStep);
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How finely an arc that clips a cell is divided into chords.
+// The arc step decides how finely an arc that clips a cell is divided into chords.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 namespace contrejour::inline internal::adaptive {
 
 // The step in radians along an arc for which chords miss it by no more pixels than their part of the cell's budget
-// allows; twice that distance costs up to 0.7 dB. corners: of the cell. shade: its irradiance.
+// allows; twice that distance costs up to 0.7 dB. corners: of the cell. irradiance: its irradiance.
 [[nodiscard]] double arc_step(const BandContext& band, const Mesh& mesh, std::span<const CellCorner> corners,
-                              const Shade& shade, double cell_budget);
+                              const LinearIrradiance& irradiance, double cell_budget);
 
 }  // namespace contrejour::inline internal::adaptive

@@ -17,20 +17,20 @@ double edge_moved(double u) {
 // With r = edge_moved, and d_k the displacement of edge k from where it is drawn, the product of the errors of edges k
 // and l is (r(d_k) + r(d_l) - r(d_k - d_l)) / 2, as for any variogram.
 double band_error(std::span<const SpectralEdge> edges, double drawn_px) {
-  double light = 0.0, off = 0.0, apart = 0.0;
+  double light = 0.0, off = 0.0, separate = 0.0;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     light += edges[k].light;
-    off += edges[k].light * edge_moved(edges[k].place_px - drawn_px);
+    off += edges[k].light * edge_moved(edges[k].position_px - drawn_px);
     for (const SpectralEdge& before : edges.first(k))
-      apart += edges[k].light * before.light * edge_moved(edges[k].place_px - before.place_px);
+      separate += edges[k].light * before.light * edge_moved(edges[k].position_px - before.position_px);
   }
-  return light * off - apart;
+  return light * off - separate;
 }
 
 double middle_of_light(std::span<const SpectralEdge> edges) {
   double light = 0.0, sum = 0.0;
-  for (const SpectralEdge& edge : edges) light += edge.light, sum += edge.light * edge.place_px;
-  return light > 0.0 ? sum / light : edges[edges.size() / 2].place_px;
+  for (const SpectralEdge& edge : edges) light += edge.light, sum += edge.light * edge.position_px;
+  return light > 0.0 ? sum / light : edges[edges.size() / 2].position_px;
 }
 
 }  // namespace contrejour::inline internal::adaptive

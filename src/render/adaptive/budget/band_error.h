@@ -8,7 +8,7 @@ namespace contrejour::inline internal::adaptive {
 
 // The edge of one wavelength, on a line across it.
 struct SpectralEdge {
-  double place_px = 0;
+  double position_px = 0;
   double light = 0;  // height of its step
 };
 

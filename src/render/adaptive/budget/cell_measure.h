@@ -9,20 +9,20 @@
 
 namespace contrejour::inline internal::adaptive {
 
-// They hold for straight and for bent sides.
+// They hold for straight and for curved sides.
 struct CellMeasure {
-  bool on_plane = false;        // its irradiance is that of a plane for several cells
-  std::optional<double> whole;  // the squared error whatever its sides are; infinite: do not draw the cell
-  double most = 0.0;            // the largest possible squared error
+  bool uses_common_plane = false;        // its irradiance is that of a plane for several cells
+  std::optional<double> total;  // the squared error whatever its sides are; infinite: do not draw the cell
+  double max_error = 0.0;            // the largest possible squared error
   double mean = 0.0, range = 0.0;     // RMS irradiance of the channels, and its range
-  double off_plane = 0.0;             // mean square residual of a plane through it
+  double plane_residual = 0.0;             // mean square residual of a plane through it
   double area_px = 0.0;               // by the derivatives in its middle
   double image_px = 0.0, flux = 0.0;  // integrals over the cell
   double longest_px = 0.0;
   double limit = 0.0;  // limit_error()
 };
 
-// on_plane: the cell's irradiance is that of a plane for several cells.
-[[nodiscard]] CellMeasure measure(const BandContext& band, const Mesh& mesh, const Cell& cell, bool on_plane);
+// uses_common_plane: the cell's irradiance is that of a plane for several cells.
+[[nodiscard]] CellMeasure measure(const BandContext& band, const Mesh& mesh, const Cell& cell, bool uses_common_plane);
 
 }  // namespace contrejour::inline internal::adaptive

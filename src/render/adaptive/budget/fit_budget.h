@@ -7,21 +7,21 @@
 
 namespace contrejour::inline internal::adaptive {
 
-inline constexpr int kFewestNodes = 5;  // of a fit, along a side of its box
+inline constexpr int kMinNodes = 5;  // of a fit, along a side of its box
 // Single precision places a ray on the sensor to within 1e-3 mm; the box in the entrance plane must not be too small
 // for it.
 inline constexpr double kFloatError_mm = 1e-3;
 inline constexpr double kFloatBox_mm = 0.05;
 inline constexpr double kWorthShrinking =
-    0.5;  // of a box's area: if its lit part has no more, the box is reduced to it
+    0.5;  // of a box's area: if its illuminated region has no more, the box is reduced to it
 // For light behind a stop pattern: the largest factor by which tolerances of dim light grow, and the multiple of the
 // negligible level below which any fit will do.
-inline constexpr double kMostLooser = 64.0, kRough = 10.0;
-inline constexpr int kBesideFailure =
+inline constexpr double kMaxLoosening = 64.0, kNegligibleLevels = 10.0;
+inline constexpr int kNextToFailure =
     1;  // further quarterings where too much light would be lost next to rays that fail
 inline constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
 
-// The first rays through a box, at kFewestNodes, with the tolerance that the budget allows.
+// The first rays through a box, at kMinNodes, with the tolerance that the budget allows.
 [[nodiscard]] FirstRays first_rays_within(const ErrorBudget& budget, GhostTracers& tracers,
                                           const WavelengthSamples& samples, const Rectangle& box, const Frame& frame);
 

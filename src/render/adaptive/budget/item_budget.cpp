@@ -9,52 +9,54 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kRoom = 8.5, kRoomAt = 0.003;  // by how much bounds exceed errors, and the error for which that holds
+constexpr double kBoundSlack = 8.5,
+                 kBoundSlackAt = 0.003;  // by how much bounds exceed errors, and the error for which that holds
 constexpr double kFew = 16.0;  // added to the number of items
 constexpr double kRaysOfOne = 20.0;  // rays in the preview frame that count as one item
 // The fraction of its squared error that an item with stop patterns may make: cells come closer to their bounds there.
 constexpr double kPatternedFraction = 0.75;
-constexpr double kFaintLevel = 3e-5;  // of the peak: four stops brighter it is a two-thousandth
-// The fraction of the frame's squared error that the squared light of all faint items may make. Their error is less,
-// since preview quality is within a tenth of their light.
-constexpr double kFaintShare = 0.05;
+constexpr double kNegligibleLevel = 3e-5;  // of the peak: four stops brighter it is a two-thousandth
+// The fraction of the frame's squared error that the squared light of all negligible items may make. Their error is
+// less, since preview quality is within a tenth of their light.
+constexpr double kNegligibleFraction = 0.05;
 
 }  // namespace
 
-// The error that one item may make. Errors of different items have either sign and fall in different places, so they
+// The error that one item may make. Errors of different items have either sign and fall at different pixels, so they
 // add in squares; and most cells stay far below the bound that they are held to. The budgets of all items may therefore
-// add up to kRoom^2 sqrt(E / kRoomAt) times the squared error that the frame is allowed. How far cells stay below their
-// bounds differs from ghost to ghost, which a few items do not average out (kFew). More cells come near their bounds in
-// items whose first rays fail, which take more rays in the preview frame, and where a smaller error is asked for. The
-// constants were found by measuring random frames (docs/physics/adaptive/items-and-budget.md).
-ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemSize>& sizes) {
+// add up to kBoundSlack^2 sqrt(E / kBoundSlackAt) times the squared error that the frame is allowed. How far cells stay
+// below their bounds differs from ghost to ghost, which a few items do not average out (kFew). More cells come near
+// their bounds in items whose first rays fail, which take more rays in the preview frame, and where a smaller error is
+// asked for. The constants were found by measuring random frames (docs/physics/adaptive/items-and-budget.md).
+ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemEstimate>& estimates) {
   double items = kFew;
-  for (const ItemSize& size : sizes) items += std::max(size.rays / kRaysOfOne, 1.0);
-  const double room = kRoom * kRoom * std::sqrt(allowed.error / kRoomAt);
-  return {room * allowed.squared() / items, allowed.peak, {}};
+  for (const ItemEstimate& estimate : estimates) items += std::max(estimate.rays / kRaysOfOne, 1.0);
+  const double slack = kBoundSlack * kBoundSlack * std::sqrt(allowed.error / kBoundSlackAt);
+  return {slack * allowed.squared() / items, allowed.peak, {}};
 }
 
-ErrorBudget budget_of(const ItemSize& size, bool has_fringes, bool is_faint, const ErrorBudget& per_item) {
+ErrorBudget budget_of(const ItemEstimate& estimate, bool has_fringes, bool is_negligible, const ErrorBudget& per_item) {
   ErrorBudget of_item = per_item;
-  of_item.about = size;
+  of_item.about = estimate;
   if (has_fringes) of_item.squared_error *= kPatternedFraction;
-  if (is_faint) of_item.squared_error = std::numeric_limits<double>::infinity();
+  if (is_negligible) of_item.squared_error = std::numeric_limits<double>::infinity();
   return of_item;
 }
 
-std::vector<bool> faint_items(const std::vector<ItemSize>& sizes, const FrameError& allowed) {
-  std::vector<bool> faint(sizes.size());
+std::vector<bool> negligible_items(const std::vector<ItemEstimate>& estimates, const FrameError& allowed) {
+  std::vector<bool> negligible(estimates.size());
   std::vector<std::size_t> dim;
-  std::vector<double> squared(sizes.size());
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const ItemSize& size = sizes[k];
-    if (!(size.area_px > 0.0) || size.level > kFaintLevel * allowed.peak) continue;
-    squared[k] = size.level * size.level * size.area_px;
-    faint[k] = true;
+  std::vector<double> squared(estimates.size());
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    const ItemEstimate& estimate = estimates[k];
+    if (!(estimate.area_px > 0.0) || estimate.level > kNegligibleLevel * allowed.peak) continue;
+    squared[k] = estimate.level * estimate.level * estimate.area_px;
+    negligible[k] = true;
     dim.push_back(k);
   }
-  for (const std::size_t k : worth_drawing(std::move(dim), squared, kFaintShare * allowed.squared())) faint[k] = false;
-  return faint;
+  for (const std::size_t k : above_error_limit(std::move(dim), squared, kNegligibleFraction * allowed.squared()))
+    negligible[k] = false;
+  return negligible;
 }
 
 double faintest_peak(const FramePlan& plan, const Frame& frame) {

@@ -7,12 +7,12 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kObscurationBend = 3.0;  // an obscuration's edge still curves where that corner is: found by measuring
+constexpr double kObscurationSag = 3.0;  // an obscuration's edge still curves where that corner is: found by measuring
 
 // The distance between the points at which a side crosses the value 1, for the parabola through the values at its ends
 // and its middle, and for the line between its ends: as a fraction of the side; 0 where neither crosses. The local
 // slope is used, since heights next to failing rays rise so steeply that the mean slope says little.
-double off_crossing(double from, double middle, double to) {
+double crossing_displacement(double from, double middle, double to) {
   if ((from - 1.0) * (to - 1.0) >= 0.0) return 0.0;
   const double t = (1.0 - from) / (to - from);
   const double curvature = 2.0 * (from - 2.0 * middle + to);
@@ -37,7 +37,7 @@ double obscuration_error(const Mesh::Field& v, const Cell& cell) {
   const double rise = (bend(cell.side[1], cell.side[3]) + bend(cell.side[0], cell.side[2])) / 8.0;
   const double high = std::max(outline, static_cast<double>(v[cell.middle]));
   if (high + rise <= 1.0 || low > 1.0 || !(high > low)) return 0.0;
-  return kObscurationBend * (outline > 1.0 ? off : high + rise - 1.0) / (high - low);
+  return kObscurationSag * (outline > 1.0 ? off : high + rise - 1.0) / (high - low);
 }
 
 }  // namespace
@@ -74,7 +74,8 @@ double limit_error(const BandContext& band, const Mesh& mesh, const Cell& cell) 
     }
     if (change > 0.0) largest = std::max(largest, off / change);
     for (std::size_t k = 0; f >= first_rim && k < 4; ++k)
-      largest = std::max(largest, off_crossing(v[cell.corner[k]], v[cell.side[k]], v[cell.corner[(k + 1) % 4]]));
+      largest =
+          std::max(largest, crossing_displacement(v[cell.corner[k]], v[cell.side[k]], v[cell.corner[(k + 1) % 4]]));
   }
   return largest;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How finely light behind a stop pattern is resolved.
+// This budget decides how finely light behind a stop pattern is resolved.
 #pragma once
 
 #include "render/adaptive/cells/band_context.h"
@@ -18,8 +18,9 @@ inline constexpr double kWorthCutting_px = 400.0;  // smaller cells are not cut;
 
 // The number of look-ups across a pixel. One look-up averages over a square in the stop as large as the pixel's image
 // there, which is not a square. The error is a fraction of the fringes that are as fine as pixels, and falls as the
-// square of the number of look-ups across a pixel. Fringes along edges are fainter the finer they are. passed: largest
-// transmittance of the pattern.
-[[nodiscard]] int looks_across_pixel(const BandContext& band, const Shade& shade, double passed, const StopMap& map);
+// square of the number of look-ups across a pixel. Fringes along edges are fainter the finer they are. transmitted:
+// largest transmittance of the pattern.
+[[nodiscard]] int samples_across_pixel(const BandContext& band, const LinearIrradiance& irradiance, double transmitted,
+                                       const StopMap& map);
 
 }  // namespace contrejour::inline internal::adaptive

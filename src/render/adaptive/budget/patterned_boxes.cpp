@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "render/ray_maps/sheet_cells.h"
+#include "render/ray_maps/lobatto_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -14,22 +14,22 @@ namespace {
 constexpr double kPatternDisc = 1.2;    // radius of a curved cell over that of its corners, in the stop
 constexpr double kFolded_mm2 = 1e-12;  // area below which a cell's image counts as folded
 
-// The rays of a sheet, and the parts of the stop pattern that their light crosses.
-class ScreenedSheet {
+// The rays of a ray set, and the parts of the stop pattern that their light crosses.
+class PatternedRays {
  public:
-  ScreenedSheet(const RaySheet& sheet, bool with_mirror_image, const stop_patterns::BandStopPattern& screen,
+  PatternedRays(const LobattoRays& ray_set, bool with_mirror_image, const stop_patterns::BandStopPattern& screen,
                 double unit, const LightFrame& light)
-      : sheet_(sheet), mirror_image_(with_mirror_image), pattern_(screen), unit_(unit), light_(light),
-        flux_mm2_(light.source.shared_flux()), cells_(sheet) {}
+      : ray_set_(ray_set), mirror_image_(with_mirror_image), pattern_(screen), unit_(unit), light_(light),
+        flux_mm2_(light.source.shared_flux()), cells_(ray_set) {}
 
-  [[nodiscard]] const SheetCells& cells() const { return cells_; }
-  [[nodiscard]] bool arrives(std::size_t ray) const { return !std::isinf(sheet_.r_rel[ray]); }
+  [[nodiscard]] const LobattoCells& cells() const { return cells_; }
+  [[nodiscard]] bool arrives(std::size_t ray) const { return !std::isinf(ray_set_.relative_height[ray]); }
 
   // The irradiance between four neighbouring rays, without the stop pattern.
   [[nodiscard]] double level(std::size_t first) const {
     double transmission = 0.0;
     for (const std::size_t v : cells_.corners(first))
-      transmission = std::max(transmission, std::abs(static_cast<double>(sheet_.transmission[v])));
+      transmission = std::max(transmission, std::abs(static_cast<double>(ray_set_.transmission[v])));
     return transmission * flux_mm2_ * cells_.entrance_mm2(first) / std::max(cells_.image_mm2(first), kFolded_mm2);
   }
   // About the radius of the cell in the stop.
@@ -40,46 +40,46 @@ class ScreenedSheet {
     return kPatternDisc * radius;
   }
   // The pattern's largest transmittance for the cell, or within `radius` of a ray.
-  [[nodiscard]] double passed(std::size_t first) const {
+  [[nodiscard]] double transmitted(std::size_t first) const {
     const double about = radius(first);
-    double most = pattern_.over(middle_of(first, 1.0), about).most;
-    if (mirror_image_) most = std::max(most, pattern_.over(middle_of(first, -1.0), about).most);
-    return most;
+    double largest = pattern_.over(middle_of(first, 1.0), about).max_transmittance;
+    if (mirror_image_) largest = std::max(largest, pattern_.over(middle_of(first, -1.0), about).max_transmittance);
+    return largest;
   }
-  [[nodiscard]] double passed_about(std::size_t ray, double radius) const {
-    double most = pattern_.over(stop(ray, 1.0), radius).most;
-    if (mirror_image_) most = std::max(most, pattern_.over(stop(ray, -1.0), radius).most);
-    return most;
+  [[nodiscard]] double transmitted_about(std::size_t ray, double radius) const {
+    double largest = pattern_.over(stop(ray, 1.0), radius).max_transmittance;
+    if (mirror_image_) largest = std::max(largest, pattern_.over(stop(ray, -1.0), radius).max_transmittance);
+    return largest;
   }
 
  private:
-  // turned: -1 for the mirror image.
-  [[nodiscard]] Vec2 stop(std::size_t v, double turned) const {
-    return light_.into_place({sheet_.stop.back()[0][v], turned * sheet_.stop.back()[1][v]}) * unit_;
+  // side: -1 for the mirror image.
+  [[nodiscard]] Vec2 stop(std::size_t v, double side) const {
+    return light_.to_lens_frame({ray_set_.stop.back()[0][v], side * ray_set_.stop.back()[1][v]}) * unit_;
   }
-  [[nodiscard]] Vec2 middle_of(std::size_t first, double turned) const {
+  [[nodiscard]] Vec2 middle_of(std::size_t first, double side) const {
     Vec2 sum{};
-    for (const std::size_t v : cells_.corners(first)) sum = sum + stop(v, turned) * 0.25;
+    for (const std::size_t v : cells_.corners(first)) sum = sum + stop(v, side) * 0.25;
     return sum;
   }
 
-  const RaySheet& sheet_;
+  const LobattoRays& ray_set_;
   bool mirror_image_;
   const stop_patterns::BandStopPattern& pattern_;
   double unit_;
   const LightFrame& light_;
   double flux_mm2_;
-  SheetCells cells_;
+  LobattoCells cells_;
 };
 
 }  // namespace
 
-std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_image,
-                                       const stop_patterns::BandStopPattern& screen, double unit,
-                                       const LightFrame& light, double enough) {
-  if (sheet.stop.empty()) return std::nullopt;
-  const ScreenedSheet screened(sheet, with_mirror_image, screen, unit, light);
-  const SheetCells& cells = screened.cells();
+std::optional<double> brightest_transmitted(const LobattoRays& ray_set, bool with_mirror_image,
+                                            const stop_patterns::BandStopPattern& screen, double unit,
+                                            const LightFrame& light, double enough) {
+  if (ray_set.stop.empty()) return std::nullopt;
+  const PatternedRays screened(ray_set, with_mirror_image, screen, unit, light);
+  const LobattoCells& cells = screened.cells();
   const std::size_t count = cells.end();
   std::vector<std::size_t> broken;  // cells with rays that fail
   double level = 0.0, radius = 0.0; // largest of all cells whose rays all arrive
@@ -95,12 +95,13 @@ std::optional<double> brightest_passed(const RaySheet& sheet, bool with_mirror_i
     const double here = screened.level(first);
     level = std::max(level, here);
     radius = std::max(radius, screened.radius(first));
-    if (here > brightest.value_or(-1.0)) brightest = std::max(brightest.value_or(0.0), screened.passed(first) * here);
+    if (here > brightest.value_or(-1.0))
+      brightest = std::max(brightest.value_or(0.0), screened.transmitted(first) * here);
     if (*brightest > enough) return brightest;
   }
   for (std::size_t k = 0; brightest && level > *brightest && k < broken.size(); ++k)
     for (const std::size_t v : cells.corners(broken[k]))
-      if (screened.arrives(v)) brightest = std::max(*brightest, screened.passed_about(v, 2.0 * radius) * level);
+      if (screened.arrives(v)) brightest = std::max(*brightest, screened.transmitted_about(v, 2.0 * radius) * level);
   return brightest;
 }
 

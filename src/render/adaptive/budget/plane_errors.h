@@ -8,8 +8,8 @@
 
 namespace contrejour::inline internal::adaptive {
 
-// Whether pixels are too far apart to look up the stop pattern: a pixel's centre may lie outside the cell, and its stop
-// point far from all points that the cell's light crosses. Such cells are drawn in parts.
+// Returns whether pixels are too far apart to look up the stop pattern: a pixel's centre may lie outside the cell, and
+// its stop point far from all points that the cell's light crosses. Such cells are drawn in parts.
 [[nodiscard]] bool sees_by_parts(const BandContext& band, const Mesh& mesh, const Cell& cell, double longest_px);
 
 // The largest error of the polynomial map from pixels to stop points at the cell's vertices, as a fraction of the cell.

@@ -5,28 +5,28 @@
 #include <cmath>
 #include <optional>
 
-#include "render/ray_maps/sheet_cells.h"
+#include "render/ray_maps/lobatto_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kFitShare = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
+constexpr double kFitFraction = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
 constexpr double kNoLimit = 1e9;
-// The largest displacement of a ghost's light, over the ghost's size: kMost in general, kCareless in preview quality,
-// where twice that has produced false caustics between rays far apart.
-constexpr double kMost = 0.05, kCareless = 0.02, kLittle_px = 0.5;
+// The largest displacement of a ghost's light, over the ghost's size: kMaxShift in general, kPreviewShift in preview
+// quality, where twice that has produced false caustics between rays far apart.
+constexpr double kMaxShift = 0.05, kPreviewShift = 0.02, kLittle_px = 0.5;
 // In ghosts brighter than kColourLevel of the peak, wavelengths farther apart than this, over the ghost's size, show as
 // colours.
 constexpr double kColourLevel = 3e-4, kColourShift = 0.02, kColourShift_px = 1.0;
 constexpr double kPeaks = 16.0;  // times the peak: fits of brighter light need be no better
 
-// The level and the area of a sheet's image. pupil_light: the light of a mm^2 of the pupil, taken as uniform over the
+// The level and the area of a ray set's image. pupil_light: the light of a mm^2 of the pupil, taken as uniform over the
 // image of each cell between rays. Cells far outside a rim do not count, since rays at a box's border may land far
 // outside the frame. Empty if no cell counts.
-std::optional<Spread> spread_of(const RaySheet& sheet, double pupil_light, const Frame& frame) {
-  const SheetCells cells(sheet);
+std::optional<LevelEstimate> level_of(const LobattoRays& ray_set, double pupil_light, const Frame& frame) {
+  const LobattoCells cells(ray_set);
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
-  const auto rim = [&](std::size_t k) { return sheet.r_rel[k]; };
+  const auto rim = [&](std::size_t k) { return ray_set.relative_height[k]; };
   double light = 0.0, squares = 0.0;
   for (std::size_t first = 0; first < cells.end(); ++first) {
     if (!cells.has(first)) continue;
@@ -38,42 +38,43 @@ std::optional<Spread> spread_of(const RaySheet& sheet, double pupil_light, const
     squares += here * here / std::max(cells.image_mm2(first) / pixel_mm2, 1.0);
   }
   if (!(light > 0.0)) return std::nullopt;
-  return Spread{squares / light, light * light / squares};
+  return LevelEstimate{squares / light, light * light / squares};
 }
 
 // Used where no cell counts and nothing is known: all light in one pixel.
-Spread one_pixel(const RaySheet& sheet, double pupil_light) {
-  const Vec2 size = sheet.box.high - sheet.box.low;
+LevelEstimate one_pixel(const LobattoRays& ray_set, double pupil_light) {
+  const Vec2 size = ray_set.box.high - ray_set.box.low;
   return {pupil_light * size.x * size.y, 1.0};
 }
 
 // The brighter of the two estimates, since light may be focused where no ray is traced.
-Spread brighter(const std::optional<Spread>& told, const Spread& known) {
-  return told && told->level >= known.level ? *told : known;
+LevelEstimate brighter(const std::optional<LevelEstimate>& traced, const LevelEstimate& known) {
+  return traced && traced->level >= known.level ? *traced : known;
 }
 
 }  // namespace
 
 // Derived from edges displaced by d over a length of about 4 L, and from levels off by a fraction w over L^2 pixels.
-Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
+Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared_flux, const Frame& frame,
                         const ErrorBudget& budget) {
   constexpr Tolerance kAny{kNoLimit, kNoLimit, kNoLimit, 0.0, kNoLimit, kNoLimit};
   if (!(weight > 0.0)) return kAny;
   const double pupil_light = weight * shared_flux;
-  const std::optional<Spread> told = spread_of(sheet, pupil_light, frame);
+  const std::optional<LevelEstimate> traced = level_of(ray_set, pupil_light, frame);
   if (!std::isfinite(budget.squared_error)) {
     Tolerance t = kAny;
-    if (told) t.position_px = kCareless * std::sqrt(told->area_px) + kLittle_px;
+    if (traced) t.position_px = kPreviewShift * std::sqrt(traced->area_px) + kLittle_px;
     return t;
   }
-  Spread spread = brighter(told, budget.about);
-  if (!(spread.area_px >= 1.0 && spread.level > 0.0)) spread = one_pixel(sheet, pupil_light);
+  LevelEstimate spread = brighter(traced, budget.about);
+  if (!(spread.area_px >= 1.0 && spread.level > 0.0)) spread = one_pixel(ray_set, pupil_light);
   const double side = std::sqrt(spread.area_px);
   Tolerance t;
   t.level = std::min(spread.level, kPeaks * budget.peak);
   t.colour_px = t.level > kColourLevel * budget.peak ? std::max(kColourShift_px, kColourShift * side) : kNoLimit;
-  const double error = kFitShare * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
-  t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMost * side + kLittle_px);
+  const double error = kFitFraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
+  t.position_px =
+      std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMaxShift * side + kLittle_px);
   t.stop = 2.0 * t.position_px / side;
   t.lost_mm2 = error * error * t.level / pupil_light;
   t.weight = std::clamp(error / side, 1e-4, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far polynomials through a ghost's rays may be off, derived from the error in pixels.
+// The tolerance says how far polynomials through a ghost's rays may be off, derived from the error in pixels.
 #pragma once
 
 #include "contrejour/frame.h"
@@ -10,7 +10,7 @@ namespace contrejour::inline internal::adaptive {
 
 // A ghost, or a part of one, as it appears: its level where most of its light is, as a pixel's value, and its area
 // there.
-struct Spread {
+struct LevelEstimate {
   double level = 0.0, area_px = 0.0;
 };
 
@@ -18,12 +18,12 @@ struct Spread {
 struct ErrorBudget {
   double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
   double peak = 1;           // of the frame's pixel values
-  Spread about = {};         // estimate of the light from the preview; 0: unknown
+  LevelEstimate about = {};         // estimate of the light from the preview; 0: unknown
 };
 
-// The tolerance for the ghost of a box's sheet. weight: the largest of any channel at any of its nodes, all wavelengths
-// together. shared_flux: LightSource::shared_flux().
-[[nodiscard]] Tolerance tolerance_for(const RaySheet& sheet, double weight, double shared_flux, const Frame& frame,
+// The tolerance for the ghost of a box's ray set. weight: the largest of any channel at any of its nodes, all
+// wavelengths together. shared_flux: LightSource::shared_flux().
+[[nodiscard]] Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared_flux, const Frame& frame,
                                       const ErrorBudget& budget);
 
 }  // namespace contrejour::inline internal::adaptive

@@ -13,13 +13,13 @@ namespace {
 
 // Fraction of the displacement that a fit may make of all light. The error of bands is added to that of fits, is
 // visible in full and shows in colours.
-constexpr double kBandShare = 0.6;
+constexpr double kBandFraction = 0.6;
 
-// How far a ghost moves from one wavelength to another, by the rays that get through or nearly do.
-double shift_mm(const RaySheet& a, const RaySheet& b) {
+// Returns how far a ghost moves from one wavelength to another, by the rays that get through or nearly do.
+double shift_mm(const LobattoRays& a, const LobattoRays& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.count(); ++k) {
-    if (!(a.r_rel[k] < kNearlyThrough && b.r_rel[k] < kNearlyThrough)) continue;
+    if (!(a.relative_height[k] < kNearlyThrough && b.relative_height[k] < kNearlyThrough)) continue;
     const Vec2 shift{a.sensor_x_mm[k] - b.sensor_x_mm[k], a.sensor_y_mm[k] - b.sensor_y_mm[k]};
     largest = std::max(largest, length(shift));
   }
@@ -27,16 +27,16 @@ double shift_mm(const RaySheet& a, const RaySheet& b) {
 }
 
 // The fraction of the light that each pass carries.
-std::vector<double> light_shares(const FirstRays& rays, std::span<const PlannedPass> passes) {
-  std::vector<double> shares;
+std::vector<double> light_fractions(const FirstRays& rays, std::span<const PlannedPass> passes) {
+  std::vector<double> fractions;
   double sum = 0.0;
   for (std::size_t k = 0; k < passes.size(); ++k) {
     const auto light = light_of(rays, passes, k);
-    shares.push_back(std::abs(light[0]) + std::abs(light[1]) + std::abs(light[2]));
-    sum += shares.back();
+    fractions.push_back(std::abs(light[0]) + std::abs(light[1]) + std::abs(light[2]));
+    sum += fractions.back();
   }
-  for (double& share : shares) share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(passes.size());
-  return shares;
+  for (double& fraction : fractions) fraction = sum > 0.0 ? fraction / sum : 1.0 / static_cast<double>(passes.size());
+  return fractions;
 }
 
 // Bands of neighbouring passes, which are merged step by step.
@@ -55,7 +55,7 @@ class Joined {
   void join_within(double allowed) {
     double sum = 0.0;
     while (!with_next_.empty()) {
-      const std::size_t k = least();
+      const std::size_t k = cheapest();
       sum += more(k);
       if (!(sum <= allowed)) return;
       wrong_[k] = with_next_[k];
@@ -87,13 +87,13 @@ class Joined {
   }
   [[nodiscard]] double error_of(std::size_t first, std::size_t last) const {
     const auto edges = of(first, last);
-    const double drawn_px = between_ ? middle_of_light(edges) : edges_[Band{first, last, {}}.middle()].place_px;
+    const double drawn_px = between_ ? middle_of_light(edges) : edges_[Band{first, last, {}}.middle()].position_px;
     for (const SpectralEdge& edge : edges)
-      if (std::abs(edge.place_px - drawn_px) > farthest_px_) return std::numeric_limits<double>::infinity();
+      if (std::abs(edge.position_px - drawn_px) > farthest_px_) return std::numeric_limits<double>::infinity();
     return band_error(edges, drawn_px);
   }
   [[nodiscard]] double more(std::size_t k) const { return with_next_[k] - wrong_[k] - wrong_[k + 1]; }
-  [[nodiscard]] std::size_t least() const {
+  [[nodiscard]] std::size_t cheapest() const {
     std::size_t at = 0;
     for (std::size_t k = 1; k < with_next_.size(); ++k)
       if (more(k) < more(at)) at = k;
@@ -112,12 +112,12 @@ class Joined {
 std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
                             const WavelengthSamples& samples, double pixel_pitch_mm) {
   if (passes.size() == 1) return {{0, 1, {}}};
-  const double half_shift_px = 0.5 * shift_mm(rays.sheets.front(), rays.sheets.back()) / pixel_pitch_mm;
-  const std::vector<double> shares = light_shares(rays, passes);
+  const double half_shift_px = 0.5 * shift_mm(rays.ray_sets.front(), rays.ray_sets.back()) / pixel_pitch_mm;
+  const std::vector<double> fractions = light_fractions(rays, passes);
   std::vector<SpectralEdge> edges;
-  for (std::size_t k = 0; k < passes.size(); ++k) edges.push_back({half_shift_px * samples.place(k), shares[k]});
+  for (std::size_t k = 0; k < passes.size(); ++k) edges.push_back({half_shift_px * samples.position(k), fractions[k]});
   Joined joined(std::move(edges), rays.samples > 0, rays.tolerance.colour_px);
-  joined.join_within(std::pow(kBandShare * rays.tolerance.position_px, 2.0));
+  joined.join_within(std::pow(kBandFraction * rays.tolerance.position_px, 2.0));
   return joined.bands();
 }
 

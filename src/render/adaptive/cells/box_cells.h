@@ -21,16 +21,16 @@ namespace contrejour::inline internal::adaptive {
 
 // The position of a mesh in its box, of which there may be many: its first vertex and the length of its cells, in units
 // of the finest subdivision (the box's side is kWhole of them).
-struct MeshPlace {
-  static constexpr int kDeepest = 11;  // the most times that a box may be quartered
-  static constexpr int kWhole = Mesh::kCells << kDeepest;
+struct MeshPosition {
+  static constexpr int kMaxDepth = 11;  // the most times that a box may be quartered
+  static constexpr int kWhole = Mesh::kCells << kMaxDepth;
   int box = 0, mirrored_box = 0;  // the same index if the box is its own mirror image
-  int x = 0, y = 0, step = 1 << kDeepest;
+  int x = 0, y = 0, step = 1 << kMaxDepth;
 
   [[nodiscard]] int size() const { return Mesh::kCells * step; }
-  [[nodiscard]] MeshPlace quarter(std::size_t q) const;
-  // The place of the mirror image, in which the order along y is reversed.
-  [[nodiscard]] MeshPlace mirrored() const { return {mirrored_box, box, x, kWhole - y - size(), step}; }
+  [[nodiscard]] MeshPosition quarter(std::size_t q) const;
+  // The position of the mirror image, in which the order along y is reversed.
+  [[nodiscard]] MeshPosition mirrored() const { return {mirrored_box, box, x, kWhole - y - size(), step}; }
 };
 
 // A set of vertices of a mesh.
@@ -52,27 +52,27 @@ class VertexSet {
 // side it lies, whatever their sizes.
 struct BoxMesh {
   Mesh mesh;
-  MeshPlace place;
-  std::array<const Shade*, 4> plane{};  // one per quarter, or null
-  std::forward_list<Shade> planes;
+  MeshPosition position;
+  std::array<const LinearIrradiance*, 4> plane{};  // one per quarter, or null
+  std::forward_list<LinearIrradiance> planes;
   std::vector<ChosenCell> cells;
   VertexSet corners;
 
-  void start_with(const MeshPlace& at, const Shade* given);
+  void start_with(const MeshPosition& at, const LinearIrradiance* given);
   void add(const ChosenCell& chosen);
-  const Shade* keep(const std::optional<Shade>& some);
+  const LinearIrradiance* keep(const std::optional<LinearIrradiance>& some);
 
  private:
   friend class BoxCells;
   // A corner of a finer mesh that lies on a line of this one, between two of its vertices.
-  struct FinerCorner {
+  struct HangingVertex {
     bool along_rows;
-    int line, place;  // the line of this mesh, and the position along it as in MeshPlace
+    int line, position;  // the line of this mesh, and the position along it as in MeshPosition
     const Mesh* mesh;
     std::size_t vertex;  // of that mesh
-    [[nodiscard]] auto order() const { return std::tuple(along_rows, line, place); }
+    [[nodiscard]] auto order() const { return std::tuple(along_rows, line, position); }
   };
-  std::vector<FinerCorner> finer_corners_;  // sorted by order()
+  std::vector<HangingVertex> hanging_vertices_;  // sorted by order()
 };
 
 // A corner of a cell's polygon: a vertex of its mesh, or a corner of a finer mesh between two of its vertices.
@@ -80,13 +80,13 @@ struct CellCorner {
   Vec2 position;  // relative to the mesh's origin
   Vec2 uv;  // in the cell
   std::size_t vertex = 0, next = 0;
-  float way = 0.0F;  // fraction of the distance from `vertex` to `next`
+  float fraction = 0.0F;  // fraction of the distance from `vertex` to `next`
 
   static CellCorner at_vertex(const Mesh& mesh, std::size_t vertex, Vec2 uv) {
     return {mesh.position(vertex), uv, vertex, vertex};
   }
   [[nodiscard]] float value_of(const Mesh::Field& field) const {
-    return field[vertex] + (field[next] - field[vertex]) * way;
+    return field[vertex] + (field[next] - field[vertex]) * fraction;
   }
 };
 
@@ -94,10 +94,10 @@ class BoxCells {
  public:
   // Adds a mesh that covers a part of a box which no other mesh covers. The memory of an earlier one is used again:
   // `mesh` keeps its old contents until it is made.
-  [[nodiscard]] BoxMesh& add(const MeshPlace& at, const Shade* plane);
+  [[nodiscard]] BoxMesh& add(const MeshPosition& at, const LinearIrradiance* plane);
   // Call this once all cells of all boxes are chosen: meshes that meet receive each other's corners, at identical
   // positions.
-  void join();
+  void make_conforming();
   // Writes all corners of a cell's polygon to `out`, in order.
   void outline(const BoxMesh& of, const Cell& cell, std::vector<CellCorner>& out) const;
 
@@ -116,21 +116,21 @@ class BoxCells {
   // A node, or, where the node is not quartered further, a square of its mesh; or nothing.
   struct Area {
     int node = kNone, mesh = kNone;
-    MeshPlace place;
+    MeshPosition position;
     [[nodiscard]] bool is_empty() const { return node == kNone && mesh == kNone; }
   };
-  [[nodiscard]] int node_at(const MeshPlace& place);
-  [[nodiscard]] Area area_of(int node, const MeshPlace& place) const;
+  [[nodiscard]] int node_at(const MeshPosition& position);
+  [[nodiscard]] Area area_of(int node, const MeshPosition& position) const;
   [[nodiscard]] Area quarter_of(const Area& area, std::size_t q) const;
-  void join_within(int node, const MeshPlace& place);
-  void join(const Area& low, const Area& high, bool along_rows);
+  void make_conforming_within(int node, const MeshPosition& position);
+  void make_conforming(const Area& low, const Area& high, bool along_rows);
   void exchange(const Area& low, const Area& high, bool along_rows);
-  static void unite(BoxMesh& first, std::size_t vertex, BoxMesh& other, std::size_t others_vertex);
+  static void merge_vertices(BoxMesh& first, std::size_t vertex, BoxMesh& other, std::size_t others_vertex);
 
-  using FinerCorners = std::span<const BoxMesh::FinerCorner>;
-  [[nodiscard]] static FinerCorners finer_corners(const BoxMesh& of, const Cell& cell, std::size_t side);
+  using HangingVertices = std::span<const BoxMesh::HangingVertex>;
+  [[nodiscard]] static HangingVertices hanging_vertices(const BoxMesh& of, const Cell& cell, std::size_t side);
   [[nodiscard]] static CellCorner corner_at(const BoxMesh& of, const Cell& cell, std::size_t side,
-                                            const BoxMesh::FinerCorner& corner);
+                                            const BoxMesh::HangingVertex& corner);
 
   std::deque<BoxMesh> meshes_;
   std::size_t count_ = 0;  // in use

@@ -14,8 +14,8 @@
 namespace contrejour::inline internal::adaptive {
 
 // Open: nothing clips it. Cut: the iris or rims may clip it. Closed: no light passes.
-enum class CellState : std::uint8_t { Open, Cut, Closed };
-enum class Sides : std::uint8_t { Straight, Bent };  // bent sides have a corner in their middle
+enum class CellState : std::uint8_t { Open, Clipped, Blocked };
+enum class Sides : std::uint8_t { Straight, Curved };  // curved sides have a corner in their middle
 
 // The vertices of a square of mesh cells: its corners in order, the middles of its sides, its middle.
 struct Cell {
@@ -35,12 +35,12 @@ struct Cell {
 struct ChosenCell {
   Cell cell;
   Sides sides = Sides::Straight;
-  const Shade* plane = nullptr;  // irradiance that it shares with other cells; null: its own
+  const LinearIrradiance* plane = nullptr;  // irradiance that it shares with other cells; null: its own
 };
 
 // A picture as the iris clips triangles, within which corners on a cell's sides have no effect.
-[[nodiscard]] inline Sides most_bent(CellState state, const IrisShape& iris) {
-  return state == CellState::Cut && iris.is_picture() ? Sides::Straight : Sides::Bent;
+[[nodiscard]] inline Sides finest_sides(CellState state, const IrisShape& iris) {
+  return state == CellState::Clipped && iris.is_picture() ? Sides::Straight : Sides::Curved;
 }
 
 }  // namespace contrejour::inline internal::adaptive

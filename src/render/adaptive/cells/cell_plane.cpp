@@ -28,12 +28,12 @@ LightSums::LightSums(const Mesh& mesh, const MeshSquare& square, std::uint32_t b
     : weights_(mesh.layout.weights) {
   const Vec2 origin = middle_of(mesh);
   const int half = square.size / 2;
-  const bool turned = mesh.area[Mesh::at(square.ix, square.iy)] < 0.0F;
+  const bool mirrored = mesh.area[Mesh::at(square.ix, square.iy)] < 0.0F;
   for (std::size_t k = 0; k < 9; ++k) {
     const std::size_t vertex =
         Mesh::at(square.ix + half * static_cast<int>(k % 3), square.iy + half * static_cast<int>(k / 3));
     const double area = mesh.area[vertex];
-    folds_ = folds_ || !((area < 0.0) == turned && area != 0.0);
+    folds_ = folds_ || !((area < 0.0) == mirrored && area != 0.0);
     const Vec2 p = mesh.position(vertex) - origin;
     const double cells = kSimpson[k % 3] * kSimpson[k / 3] * square.size * square.size;
     const double pixels = ((mesh.outside[vertex] & blocked) != 0 ? kDark : 1.0) * cells * std::abs(area);
@@ -85,14 +85,14 @@ std::optional<IrradiancePlane> LightSums::plane(const Mesh& mesh, const MeshSqua
   IrradiancePlane out;
   out.area_px = m[kOne];
   const Vec2 at = middle + origin + mesh.origin_px;
-  out.shade.at = {static_cast<float>(at.x), static_cast<float>(at.y)};
+  out.irradiance.at = {static_cast<float>(at.x), static_cast<float>(at.y)};
   double squared_mean = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
     const Plane& plane = planes[weights_ == 1 ? 0 : c];
     const double gain = mesh.gain[c];
-    out.shade.value[c] = static_cast<float>(gain * plane.mean);
-    out.shade.along_x[c] = static_cast<float>(gain * plane.slope.x);
-    out.shade.along_y[c] = static_cast<float>(gain * plane.slope.y);
+    out.irradiance.value[c] = static_cast<float>(gain * plane.mean);
+    out.irradiance.along_x[c] = static_cast<float>(gain * plane.slope.x);
+    out.irradiance.along_y[c] = static_cast<float>(gain * plane.slope.y);
     out.squared_error += gain * gain * plane.squared_error / 3.0;
     squared_mean += gain * gain * plane.mean * plane.mean / 3.0;
   }

@@ -18,7 +18,7 @@ struct MeshSquare {
 };
 
 struct IrradiancePlane {
-  Shade shade;
+  LinearIrradiance irradiance;
   double mean = 0.0;           // of the channels' RMS irradiance
   double squared_error = 0.0;  // of the channels' mean, summed over the cells' pixels
   double area_px = 0.0;

@@ -89,11 +89,11 @@ float rise_between(const Mesh::Field& v) {
   float along_u = 0.0F, along_v = 0.0F;
   for (int iy = 0; iy < Mesh::kSide; ++iy) {
     for (int ix = 1; ix < Mesh::kCells; ++ix) {
-      const auto bend = [&](std::size_t a, std::size_t b, std::size_t c) {
+      const auto nonlinearity = [&](std::size_t a, std::size_t b, std::size_t c) {
         return std::abs(v[a] - 2.0F * v[b] + v[c]);
       };
-      along_u = std::max(along_u, bend(Mesh::at(ix - 1, iy), Mesh::at(ix, iy), Mesh::at(ix + 1, iy)));
-      along_v = std::max(along_v, bend(Mesh::at(iy, ix - 1), Mesh::at(iy, ix), Mesh::at(iy, ix + 1)));
+      along_u = std::max(along_u, nonlinearity(Mesh::at(ix - 1, iy), Mesh::at(ix, iy), Mesh::at(ix + 1, iy)));
+      along_v = std::max(along_v, nonlinearity(Mesh::at(iy, ix - 1), Mesh::at(iy, ix), Mesh::at(iy, ix + 1)));
     }
   }
   return (along_u + along_v) / 8.0F;
@@ -108,11 +108,11 @@ void mark_near_obscurations(Mesh& mesh) {
   }
 }
 
-void find_brightness(Mesh& mesh) {
+void find_rms_irradiance(Mesh& mesh) {
   const PatchLayout& layout = mesh.layout;
   const auto set = [&](auto rms_weight) {
-    for (std::size_t k = 0; k < mesh.brightness.size(); ++k)
-      mesh.brightness[k] = rms_weight(k) / (std::abs(mesh.area[k]) + 1e-20F);
+    for (std::size_t k = 0; k < mesh.rms_irradiance.size(); ++k)
+      mesh.rms_irradiance[k] = rms_weight(k) / (std::abs(mesh.area[k]) + 1e-20F);
   };
   const auto third = static_cast<float>(mesh.cell_flux_area_mm2 * mesh.cell_flux_area_mm2 / 3.0);
   if (layout.weights == 1) {
@@ -156,7 +156,7 @@ void make_mesh(const Patch& patch, const IrisShape& iris, Mesh& mesh) {
   }
   mark_outside(mesh, iris);
   mark_near_obscurations(mesh);
-  find_brightness(mesh);
+  find_rms_irradiance(mesh);
 }
 
 }  // namespace contrejour::inline internal::adaptive

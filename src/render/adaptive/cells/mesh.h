@@ -23,7 +23,7 @@ struct Mesh {
   Rectangle box;                          // as the patch's
   std::vector<Field> fields;              // fields of the patch at the vertices
   Field area;                             // signed image area of a cell, by the derivatives at the vertex, in pixels
-  Field brightness;                       // root mean square of the channels' irradiance, per pixel
+  Field rms_irradiance;                       // root mean square of the channels' irradiance, per pixel
   double cell_flux_area_mm2 = 0;          // of one cell: its area in the entrance plane times cos(theta)
   Rgb gain;                               // as the patch's
   std::array<std::uint32_t, kVertices> outside;  // bits set where the vertex is outside a crossing, then a rim

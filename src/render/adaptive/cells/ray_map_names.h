@@ -4,8 +4,8 @@
 #pragma once
 
 #include "render/ray_maps/lobatto.h"
+#include "render/ray_maps/lobatto_rays.h"
 #include "render/ray_maps/patch.h"
-#include "render/ray_maps/ray_sheet.h"
 
 namespace contrejour::inline internal::adaptive {
 

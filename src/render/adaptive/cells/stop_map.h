@@ -30,28 +30,31 @@ struct CellSeries {
 
 class StopMap {
  public:
-  // pixel: of the frame. stop: at each crossing, in stop radii. A cell thinner than `softness_px` is treated as if it
-  // were that thick, so that the map does not become steep outside it.
-  StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, double softness_px);
+  // pixel: of the frame. stop: at each crossing, in stop radii. A cell thinner than `min_thickness_px` is treated as if
+  // it were that thick, so that the map does not become steep outside it.
+  StopMap(const CellSeries& pixel, std::span<const CellSeries> stop, double min_thickness_px);
 
   // At the last crossing.
-  [[nodiscard]] Vec2 place(Vec2 pixel) const { return place(pixel, crossings_ - 1); }
-  [[nodiscard]] Vec2 place(Vec2 pixel, std::size_t crossing) const {
+  [[nodiscard]] Vec2 stop_point(Vec2 pixel) const { return stop_point(pixel, crossings_ - 1); }
+  [[nodiscard]] Vec2 stop_point(Vec2 pixel, std::size_t crossing) const {
     const Vec2 q = pixel - origin_px_;
     const Crossing& t = crossing_[crossing];
     return t.level + t.x * q.x + t.y * q.y + t.xx * (q.x * q.x) + t.xy * (q.x * q.y) + t.yy * (q.y * q.y);
   }
   [[nodiscard]] double width() const { return crossing_[crossings_ - 1].width; }  // of a pixel there, stop radii
   // The largest distance from its middle that a pixel averages over; to first order, in stop radii.
-  [[nodiscard]] double pixel_reach() const {
+  [[nodiscard]] double pixel_extent() const {
     const Crossing& t = crossing_[crossings_ - 1];
     return 0.5 * (length(t.x) + length(t.y));
   }
-  [[nodiscard]] double bend() const { return bend_; }  // how far from linear it is at the cell's corners, stop radii
+  [[nodiscard]] double nonlinearity() const {
+    return nonlinearity_;
+  }  // how far from linear it is at the cell's corners, stop radii
   [[nodiscard]] int crossings() const { return static_cast<int>(crossings_); }
 
-  // The points at every crossing. room: memory for the result.
-  [[nodiscard]] std::span<const StopPoint> places(Vec2 pixel, std::array<StopPoint, kMaxStopCrossings>& room) const;
+  // The points at every crossing. buffer: memory for the result.
+  [[nodiscard]] std::span<const StopPoint> stop_points(Vec2 pixel,
+                                                       std::array<StopPoint, kMaxStopCrossings>& buffer) const;
 
   // The map of the last crossing, for parts of pixels that are `times` narrower than pixels.
   [[nodiscard]] PatternMap last(int times) const {
@@ -74,7 +77,7 @@ class StopMap {
   Vec2 origin_px_;
   std::array<Crossing, kMaxStopCrossings> crossing_;
   std::size_t crossings_;
-  double bend_ = 0.0;
+  double nonlinearity_ = 0.0;
 };
 
 }  // namespace contrejour::inline internal::adaptive

@@ -11,7 +11,7 @@
 #include "render/adaptive/budget/cell_error.h"
 #include "render/adaptive/cells/dirt_crossings.h"
 #include "render/adaptive/choose/common_plane.h"
-#include "render/adaptive/choose/seen_cell.h"
+#include "render/adaptive/choose/visible_cell.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -23,25 +23,25 @@ std::size_t quarter_at(int x, int y) { return static_cast<std::size_t>(2 * (y / 
 
 }  // namespace
 
-bool CellChooser::wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool on_plane) const {
+bool CellChooser::wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool uses_common_plane) const {
   const double cell_budget = budget_.of_next_cell();
   for (int y = square.iy; y < square.iy + square.size; y += 2) {
     for (int x = square.ix; x < square.ix + square.size; x += 2) {
-      const auto cell = seen_cell(band_, in, {x, y, 2});
+      const auto cell = visible_cell(band_, in, {x, y, 2});
       if (!cell) continue;
-      CellError error(band_, in.mesh, *cell, on_plane);
-      if (error.squared(most_bent(cell->state, band_.iris), cell_budget) > kGainOfHalving * cell_budget) return true;
+      CellError error(band_, in.mesh, *cell, uses_common_plane);
+      if (error.squared(finest_sides(cell->state, band_.iris), cell_budget) > kGainOfHalving * cell_budget) return true;
     }
   }
   return false;
 }
 
-// patch: the polynomials that the mesh at `place` is evaluated from.
-void CellChooser::choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane) {
-  BoxMesh& of = cells_.add(place, plane);
+// patch: the polynomials that the mesh at `position` is evaluated from.
+void CellChooser::choose(const Patch& patch, const MeshPosition& position, int depth, const LinearIrradiance* plane) {
+  BoxMesh& of = cells_.add(position, plane);
   make_mesh(patch, band_.iris, of.mesh);
   const auto find_finer = [&](std::size_t q) {
-    return depth < kDeepestMesh && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
+    return depth < kMaxMeshDepth && wants_finer_mesh(of, quarter_square(q), of.plane[q] != nullptr);
   };
   // The patch is bilinear between four rays, so that a finer mesh of it would show nothing more.
   if (patch.nodes == 2) return choose(of, {0, 0, Mesh::kCells}, plane);
@@ -64,12 +64,12 @@ void CellChooser::choose(const Patch& patch, const MeshPlace& place, int depth, 
   }
   for (std::size_t q = 0; q < 4; ++q)
     if (finer[q])
-      choose(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), place.quarter(q), depth + 1,
+      choose(quarter(patch, static_cast<int>(q % 2), static_cast<int>(q / 2)), position.quarter(q), depth + 1,
              of.plane[q]);
 }
 
-void CellChooser::choose(BoxMesh& of, const MeshSquare& square, const Shade* plane) {
-  const auto cell = seen_cell(band_, of, square);
+void CellChooser::choose(BoxMesh& of, const MeshSquare& square, const LinearIrradiance* plane) {
+  const auto cell = visible_cell(band_, of, square);
   if (!cell) return;
   const auto choose_it = [&](Sides sides) {
     budget_.add_cell();
@@ -83,9 +83,10 @@ void CellChooser::choose(BoxMesh& of, const MeshSquare& square, const Shade* pla
     return std::isfinite(squared) && squared <= budget;  // an infinite budget allows no infinite error
   };
   if (is_within(Sides::Straight, kStraight * cell_budget)) return choose_it(Sides::Straight);
-  const Sides sides = is_dirty(band_, of.mesh, *cell) ? Sides::Straight : most_bent(cell->state, band_.iris);
+  const Sides sides = is_dirty(band_, of.mesh, *cell) ? Sides::Straight : finest_sides(cell->state, band_.iris);
   if (is_within(sides, cell_budget)) return choose_it(sides);
-  const Shade* const common = plane != nullptr ? plane : of.keep(plane_for(band_, of.mesh, square, cell_budget));
+  const LinearIrradiance* const common =
+      plane != nullptr ? plane : of.keep(plane_for(band_, of.mesh, square, cell_budget));
   const int half = square.size / 2;
   for (int k = 0; k < 4; ++k) choose(of, {square.ix + (k % 2) * half, square.iy + (k / 2) * half, half}, common);
 }

@@ -16,12 +16,12 @@ class CellChooser {
   CellChooser(const BandContext& band, CellBudget& budget, BoxCells& cells)
       : band_(band), budget_(budget), cells_(cells) {}
 
-  void choose(const Patch& patch, const MeshPlace& place) { choose(patch, place, 0, nullptr); }
+  void choose(const Patch& patch, const MeshPosition& position) { choose(patch, position, 0, nullptr); }
 
  private:
-  void choose(const Patch& patch, const MeshPlace& place, int depth, const Shade* plane);
-  void choose(BoxMesh& of, const MeshSquare& square, const Shade* plane);
-  [[nodiscard]] bool wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool on_plane) const;
+  void choose(const Patch& patch, const MeshPosition& position, int depth, const LinearIrradiance* plane);
+  void choose(BoxMesh& of, const MeshSquare& square, const LinearIrradiance* plane);
+  [[nodiscard]] bool wants_finer_mesh(const BoxMesh& in, const MeshSquare& square, bool uses_common_plane) const;
 
   const BandContext& band_;
   CellBudget& budget_;

@@ -17,8 +17,8 @@ namespace contrejour::inline internal::adaptive {
 }
 
 // The plane for the cells of a square, if one serves them.
-[[nodiscard]] std::optional<Shade> plane_for(const BandContext& band, const Mesh& mesh, const MeshSquare& square,
-                                             double cell_budget);
+[[nodiscard]] std::optional<LinearIrradiance> plane_for(const BandContext& band, const Mesh& mesh,
+                                                        const MeshSquare& square, double cell_budget);
 
 // Sets BoxMesh::plane to one plane for the whole mesh, or else to one for each quarter that a plane serves.
 void find_planes(const BandContext& band, BoxMesh& of, double cell_budget);

@@ -22,7 +22,7 @@ BoundView::BoundView(const IrisBound& bound, std::span<const PlacedCorner> polyg
 // For an arc the strip spans a rectangle about the arc's centre that is as wide as the polygon and whose corners lie
 // `depth` within the arc.
 Strip BoundView::deeper_than(double depth) const {
-  if (std::isinf(radius_)) return {.most = outer_ - depth};
+  if (std::isinf(radius_)) return {.distance = outer_ - depth};
   const double radius = radius_ - depth, centre = outer_ - radius_;
   if (radius <= sideways_) return {centre, centre};
   const double chord = std::sqrt(radius * radius - sideways_ * sideways_);

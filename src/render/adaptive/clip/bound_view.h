@@ -12,10 +12,10 @@
 
 namespace contrejour::inline internal::adaptive {
 
-// The strip of points p with normal . p between `least` and `most`.
+// The strip of points p with normal . p between `near_distance` and `distance`.
 struct Strip {
-  double least = -std::numeric_limits<double>::infinity(), most = 0.0;
-  [[nodiscard]] bool is_empty() const { return !(least < most); }
+  double near_distance = -std::numeric_limits<double>::infinity(), distance = 0.0;
+  [[nodiscard]] bool is_empty() const { return !(near_distance < distance); }
 };
 
 class BoundView {

@@ -15,7 +15,7 @@ namespace contrejour::inline internal::adaptive {
 struct Corner {
   Vec2 position;  // pixels of the frame
   Vec2 uv;        // in the cell or triangle: fractions of area there are fractions of flux
-  std::array<float, 2 * kMaxStopCrossings + kMostRims> limit{};
+  std::array<float, 2 * kMaxStopCrossings + kMaxRims> limit{};
 };
 
 }  // namespace contrejour::inline internal::adaptive

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/adaptive/cells/stop_map.h"
-#include "render/adaptive/clip/outline_cutter.h"
+#include "render/adaptive/clip/polygon_clipper.h"
 
 namespace contrejour::inline internal::adaptive {
 
@@ -19,15 +19,15 @@ struct PlacedCorner {
 
 struct HalfPlane {  // normal . p <= most, in the stop
   Vec2 normal;
-  double most = 0.0;
-  [[nodiscard]] double beyond(const PlacedCorner& c) const { return dot(normal, c.stop) - most; }
+  double distance = 0.0;
+  [[nodiscard]] double beyond(const PlacedCorner& c) const { return dot(normal, c.stop) - distance; }
 };
 
 class PlacedPolygon {
  public:
-  void place(std::span<const Corner> polygon, const StopMap& map) {
+  void assign(std::span<const Corner> polygon, const StopMap& map) {
     corners_.clear();
-    for (const Corner& c : polygon) corners_.push_back({c.position, c.uv, map.place(c.position)});
+    for (const Corner& c : polygon) corners_.push_back({c.position, c.uv, map.stop_point(c.position)});
   }
   void take(const PlacedPolygon& other) { corners_.assign(other.corners_.begin(), other.corners_.end()); }
   [[nodiscard]] std::span<const PlacedCorner> corners() const { return corners_; }
@@ -46,7 +46,7 @@ class PlacedPolygon {
       if ((fa <= 0.0) == (fb <= 0.0)) continue;
       const double t = fa / (fa - fb);
       const Vec2 position = a.position + (b.position - a.position) * t;
-      corners_.push_back({position, a.uv + (b.uv - a.uv) * t, map.place(position)});
+      corners_.push_back({position, a.uv + (b.uv - a.uv) * t, map.stop_point(position)});
     }
   }
 

@@ -14,10 +14,10 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-constexpr double kSoft = 0.05;  // minimum thickness of cells in stop maps, over their length, or maps of small cells
-                                // would be constant
+constexpr double kMinThickness = 0.05;  // minimum thickness of cells in stop maps, over their length, or maps of small
+                                        // cells would be constant
 
-// A cell's corners, and the middles of its sides if they bend.
+// A cell's corners, and the middles of its sides if they are curved.
 struct CellShape {
   std::array<CellCorner, 8> corners;
   std::size_t count = 0;
@@ -27,7 +27,7 @@ struct CellShape {
     constexpr std::array<Vec2, 4> kSide{Vec2{0.5, 0}, Vec2{1, 0.5}, Vec2{0.5, 1}, Vec2{0, 0.5}};
     for (std::size_t k = 0; k < 4; ++k) {
       corners[count++] = CellCorner::at_vertex(mesh, cell.corner[k], kCorner[k]);
-      if (sides == Sides::Bent) corners[count++] = CellCorner::at_vertex(mesh, cell.side[k], kSide[k]);
+      if (sides == Sides::Curved) corners[count++] = CellCorner::at_vertex(mesh, cell.side[k], kSide[k]);
     }
   }
   [[nodiscard]] std::span<const CellCorner> all() const { return {corners.data(), count}; }
@@ -67,20 +67,20 @@ void CellEmitter::emit(const BoxMesh& of, const ChosenCell& chosen) {
   const bool by_parts = varied && sees_by_parts(band_, mesh, cell, longest);
   std::optional<Flux> mean;
   if (varied && (by_parts || is_dim(band_, mesh, cell, kMeanBelow))) {
-    const std::size_t across = by_parts ? parts_across(band_, mesh, cell, longest) : CellParts::kFewestAcross;
+    const std::size_t across = by_parts ? parts_across(band_, mesh, cell, longest) : CellParts::kMinAcross;
     const CellParts parts = parts_of(band_, mesh, cell, across);
     if (by_parts && cell.state == CellState::Open && !is_dirty(band_, mesh, cell) &&
-        parts.are_uneven(ignored_difference(band_, brightest(mesh, cell))))
+        parts.are_nonuniform(ignored_difference(band_, brightest(mesh, cell))))
       return emit_parts(mesh, cell, parts);
     mean = parts.mean();
   }
   if (!is_convex(mesh, cell, area)) return emit_folded(mesh, cell, mean);
 
   CellLight light = light_of(mesh, cell, shape);
-  if (chosen.plane != nullptr) light.shade = *chosen.plane;
+  if (chosen.plane != nullptr) light.irradiance = *chosen.plane;
   if (mean) light.dim(*mean);
   if (!varied || mean) return emit_convex(mesh, chosen, light, nullptr);
-  const StopMap map = stop_map(band_, mesh, cell, std::min(kSoft_px, kSoft * longest));
+  const StopMap map = stop_map(band_, mesh, cell, std::min(kMinThickness_px, kMinThickness * longest));
   emit_convex(mesh, chosen, light, &map);
 }
 
@@ -89,7 +89,7 @@ void CellEmitter::emit_convex(const Mesh& mesh, const ChosenCell& chosen, const 
   const Cell& cell = chosen.cell;
   if (is_dirty(band_, mesh, cell)) return emit_dirty(mesh, cell, light, map);
   const CellShape shape(mesh, cell, chosen.sides);
-  emit_outline(mesh, cell.state, light, {shape.all(), all_corners_}, {map, nullptr, cell.pattern.most});
+  emit_outline(mesh, cell.state, light, {shape.all(), all_corners_}, {map, nullptr, cell.pattern.max_transmittance});
 }
 
 // Emits each part as a polygon of its own, with its part of the cell's flux.
@@ -107,7 +107,7 @@ void CellEmitter::emit_parts(const Mesh& mesh, const Cell& cell, const CellParts
       part[j].position = CellParts::between(corner, part[j].uv);
     }
     const Vec2 middle = (part[0].position + part[2].position) * 0.5;
-    light.shade.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
+    light.irradiance.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
     polygons_.emit(part, light, {});
   }
 }
@@ -123,7 +123,7 @@ void CellEmitter::emit_folded(const Mesh& mesh, const Cell& cell, const std::opt
     const auto map = looks_up ? std::optional(stop_map(band_, mesh, t)) : std::nullopt;
     const auto dirt = is_dirty(band_, mesh, cell) ? std::optional(dirt_triangle(band_, mesh, t)) : std::nullopt;
     emit_outline(mesh, cell.state, light, {corners, corners},
-                 {map ? &*map : nullptr, dirt ? &*dirt : nullptr, cell.pattern.most});
+                 {map ? &*map : nullptr, dirt ? &*dirt : nullptr, cell.pattern.max_transmittance});
   }
 }
 
@@ -140,18 +140,18 @@ void CellEmitter::emit_dirty(const Mesh& mesh, const Cell& cell, const CellLight
 }
 
 void CellEmitter::emit_outline(const Mesh& mesh, CellState state, const CellLight& light, const CellOutline& outline,
-                               const Behind& behind) {
+                               const Occluders& occluders) {
   if (clipper_.by_picture(state)) {
     clipper_.for_each_open_part(mesh, outline, [&](std::span<const Corner> part, double open) {
       CellLight dimmed = light;
       dimmed.dim({open, open, open});
-      polygons_.emit(part, dimmed, behind);
+      polygons_.emit(part, dimmed, occluders);
     });
     return;
   }
   const double step_rad =
-      clipper_.by_arcs(state) ? arc_step(band_, mesh, outline.shape, light.shade, budget_.of_next_cell()) : 0.0;
-  polygons_.emit(clipper_.open_part(mesh, state, outline, step_rad), light, behind);
+      clipper_.by_arcs(state) ? arc_step(band_, mesh, outline.shape, light.irradiance, budget_.of_next_cell()) : 0.0;
+  polygons_.emit(clipper_.open_part(mesh, state, outline, step_rad), light, occluders);
 }
 
 }  // namespace contrejour::inline internal::adaptive

@@ -30,7 +30,7 @@ class CellEmitter {
   void emit_convex(const Mesh& mesh, const ChosenCell& chosen, const CellLight& light, const StopMap* map);
   void emit_dirty(const Mesh& mesh, const Cell& cell, const CellLight& light, const StopMap* map);
   void emit_outline(const Mesh& mesh, CellState state, const CellLight& light, const CellOutline& outline,
-                    const Behind& behind);
+                    const Occluders& occluders);
 
   const BandContext& band_;
   const CellBudget& budget_;

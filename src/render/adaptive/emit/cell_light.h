@@ -14,9 +14,9 @@ namespace contrejour::inline internal::adaptive {
 using Flux = std::array<double, 3>;  // by channel, as pixel values
 
 struct CellLight {
-  Shade shade{};
+  LinearIrradiance irradiance{};
   Flux flux{};  // of the square 0 .. 1 of uv; triangle: of half of it
-  Vec2 rise{};  // of what its rays carry: change from side to side along u and v, over the mean
+  Vec2 slope{};  // of what its rays carry: change from side to side along u and v, over the mean
   bool triangle = false;
 
   // Multiplies the light by a transmittance, or by minus the fraction that is taken away.

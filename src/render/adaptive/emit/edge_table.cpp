@@ -10,10 +10,10 @@ namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kStep = 1.0 / 24.0;  // in units of the finest edge
-constexpr double kFadeFrom = 0.7;     // of the way to where the light is uniform: no step must be visible there
+constexpr double kFadeFrom = 0.7;     // of the distance to where the light is uniform: no step must be visible there
 
-double fade(double way) {
-  const double t = std::clamp((1.0 - way) / (1.0 - kFadeFrom), 0.0, 1.0);
+double fade(double fraction) {
+  const double t = std::clamp((1.0 - fraction) / (1.0 - kFadeFrom), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
@@ -39,15 +39,15 @@ std::uint32_t add_edge_table(const stop_patterns::BandStopPattern& band, double 
   const IrisShape& iris = band.edges->iris();
   if (list.bounds.empty()) list.bounds = iris.bounds();
   EdgeTable table;
-  table.grey = band.is_grey();
+  table.is_monochrome = band.is_monochrome();
   table.of_outline = iris.is_picture();
   table.dark_beyond = band.dark_beyond + 0.5 * width;
   table.level_within = band.level_within + 0.5 * width;
-  table.per_step = 1.0 / (kStep * band.unit);
+  table.per_step = 1.0 / (kStep * band.fringe_unit);
   table.count = static_cast<std::uint32_t>((table.dark_beyond + table.level_within) * table.per_step) + 2;
-  table.first = static_cast<std::uint32_t>(table.grey ? list.edge_steps.size() : list.edge_factors.size());
+  table.first = static_cast<std::uint32_t>(table.is_monochrome ? list.edge_steps.size() : list.edge_factors.size());
   const std::vector<Channels> factors = factors_of(band, table, width);
-  if (table.grey) {
+  if (table.is_monochrome) {
     for (std::size_t k = 0; k < factors.size(); ++k)
       list.edge_steps.push_back({factors[k][0], k + 1 < factors.size() ? factors[k + 1][0] - factors[k][0] : 0.0F});
   } else {

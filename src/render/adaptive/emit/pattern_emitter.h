@@ -22,15 +22,16 @@ class PatternEmitter {
   // All arguments must outlive this object.
   PatternEmitter(const BandContext& band, PolygonList& out) : band_(band), out_(out) {}
 
-  // passed: the largest transmittance of the pattern.
-  void emit(std::span<const Corner> polygon, double area_px, const Shade& shade, const StopMap& map, double passed);
+  // transmitted: the largest transmittance of the pattern.
+  void emit(std::span<const Corner> polygon, double area_px, const LinearIrradiance& irradiance, const StopMap& map,
+            double transmitted);
 
  private:
-  void emit_in_strips(const Shade& shade, const StopMap& map, int looks, std::uint32_t table);
-  void add_fringed(std::span<const PlacedCorner> polygon, const Shade& shade, const StopMap& map, int looks,
-                   std::uint32_t table);
+  void emit_in_strips(const LinearIrradiance& irradiance, const StopMap& map, int samples, std::uint32_t table);
+  void add_fringed(std::span<const PlacedCorner> polygon, const LinearIrradiance& irradiance, const StopMap& map,
+                   int samples, std::uint32_t table);
   [[nodiscard]] std::uint32_t table_for(double width);
-  [[nodiscard]] Pattern pattern_of(std::span<const Point> polygon, const StopMap& map, int looks);
+  [[nodiscard]] Pattern pattern_of(std::span<const Point> polygon, const StopMap& map, int samples);
   [[nodiscard]] std::uint32_t weights();
 
   const BandContext& band_;
@@ -38,7 +39,7 @@ class PatternEmitter {
   // Indices in the list: of edge tables, by pattern and pixel width; of weights, by pattern.
   std::map<std::pair<const stop_patterns::BandStopPattern*, int>, std::uint32_t> tables_;
   std::map<const stop_patterns::BandStopPattern*, std::uint32_t> weights_;
-  PlacedPolygon rest_, strip_;  // scratch for cutting along edges
+  PlacedPolygon remaining_, strip_;  // scratch for cutting along edges
   PointBuffer points_;
 };
 

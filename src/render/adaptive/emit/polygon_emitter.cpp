@@ -12,38 +12,40 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-// The irradiance of a small polygon from its flux: the cell's flux times `share_per_px`. Near a focus irradiance varies
-// within cells that pixels do not resolve, so that the fraction of flux that the iris transmits is not the fraction of
-// area that it leaves.
-Shade even_shade(const CellLight& light, double share_per_px) {
-  Shade even{.at = light.shade.at};
-  for (std::size_t c = 0; c < 3; ++c) even.value[c] = static_cast<float>(light.flux[c] * share_per_px);
+// The irradiance of a small polygon from its flux: the cell's flux times `fraction_per_px`. Near a focus irradiance
+// varies within cells that pixels do not resolve, so that the fraction of flux that the iris transmits is not the
+// fraction of area that it leaves.
+LinearIrradiance uniform_irradiance(const CellLight& light, double fraction_per_px) {
+  LinearIrradiance even{.at = light.irradiance.at};
+  for (std::size_t c = 0; c < 3; ++c) even.value[c] = static_cast<float>(light.flux[c] * fraction_per_px);
   return even;
 }
 
 // The same for a polygon of a few pixels, which keeps the slope of its irradiance.
-Shade with_flux(std::span<const Corner> polygon, const CellLight& light, double share) {
-  constexpr double kMost = 2.0;
-  const Shade& of = light.shade;
-  const Vec2 aside = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].uv; }).centroid - Vec2{0.5, 0.5};
-  share *= std::max(1.0 + dot(light.rise, aside), 0.0);
+LinearIrradiance with_flux(std::span<const Corner> polygon, const CellLight& light, double fraction) {
+  constexpr double kMaxCorrection = 2.0;
+  const LinearIrradiance& of = light.irradiance;
+  const Vec2 from_middle =
+      area_of(polygon.size(), [&](std::size_t k) { return polygon[k].uv; }).centroid - Vec2{0.5, 0.5};
+  fraction *= std::max(1.0 + dot(light.slope, from_middle), 0.0);
   const auto [area, middle] = area_of(polygon.size(), [&](std::size_t k) { return polygon[k].position; });
   const Vec2 from = middle - Vec2{of.at.x, of.at.y};
-  Shade out = of;
+  LinearIrradiance out = of;
   for (std::size_t c = 0; c < 3; ++c) {
     const double has = (of.value[c] + of.along_x[c] * from.x + of.along_y[c] * from.y) * std::abs(area);
-    const double times = light.flux[c] * share / has;
-    if (!(times > 1.0 / kMost && times < kMost)) continue;
-    for (Channels Shade::* part : {&Shade::value, &Shade::along_x, &Shade::along_y})
+    const double times = light.flux[c] * fraction / has;
+    if (!(times > 1.0 / kMaxCorrection && times < kMaxCorrection)) continue;
+    for (Channels LinearIrradiance::* part :
+         {&LinearIrradiance::value, &LinearIrradiance::along_x, &LinearIrradiance::along_y})
       (out.*part)[c] *= static_cast<float>(times);
   }
   return out;
 }
 
-// What decides how a polygon is emitted.
+// These sizes decide how a polygon is emitted.
 struct PolygonSize {
   Bounds bounds;
-  double twice_area = 0.0, twice_share = 0.0;  // signed: of the frame, and of uv
+  double twice_area = 0.0, twice_fraction = 0.0;  // signed: of the frame, and of uv
 
   explicit PolygonSize(std::span<const Corner> polygon) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -51,7 +53,7 @@ struct PolygonSize {
       bounds.add(c.position);
       if (k < 2) continue;
       twice_area += cross(polygon[k - 1].position - polygon[0].position, c.position - polygon[0].position);
-      twice_share += cross(polygon[k - 1].uv - polygon[0].uv, c.uv - polygon[0].uv);
+      twice_fraction += cross(polygon[k - 1].uv - polygon[0].uv, c.uv - polygon[0].uv);
     }
   }
   [[nodiscard]] double longest() const { return std::max(bounds.size().x, bounds.size().y); }
@@ -61,79 +63,80 @@ struct PolygonSize {
   }
   [[nodiscard]] bool is_resolved() const {
     const bool sliver = std::abs(twice_area) < kSliver * longest();
-    return !is_in_one_pixel() && !sliver && longest() > kSpeck;
+    return !is_in_one_pixel() && !sliver && longest() > kPoint_px;
   }
 };
 
 }  // namespace
 
-void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& light, const Behind& behind) {
+void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& light, const Occluders& occluders) {
   if (polygon.size() < 3) return;
   const PolygonSize size(polygon);
   const double area = 0.5 * std::abs(size.twice_area);
-  const double share = 0.5 * std::abs(size.twice_share) * (light.triangle ? 2.0 : 1.0);
+  const double fraction = 0.5 * std::abs(size.twice_fraction) * (light.triangle ? 2.0 : 1.0);
   if (size.is_resolved()) {
     const double longest = size.longest();
-    CellLight seen = light;
+    CellLight small = light;
     if (longest < kSmall_px) {
-      seen.shade = even_shade(light, share / area);
+      small.irradiance = uniform_irradiance(light, fraction / area);
     } else if (longest < kFew_px && !light.triangle) {  // half of a cell need not have half of its flux
-      seen.shade = with_flux(polygon, light, share);
+      small.irradiance = with_flux(polygon, light, fraction);
     }
-    return emit_resolved(polygon, area, seen, behind);
+    return emit_resolved(polygon, area, small, occluders);
   }
-  const Flux flux{light.flux[0] * share, light.flux[1] * share, light.flux[2] * share};
-  emit_line(polygon, passed(flux, (size.bounds.low + size.bounds.high) * 0.5, behind));
+  const Flux flux{light.flux[0] * fraction, light.flux[1] * fraction, light.flux[2] * fraction};
+  emit_line(polygon, transmitted(flux, (size.bounds.low + size.bounds.high) * 0.5, occluders));
 }
 
 // The flux that remains of a polygon at a point.
-Flux PolygonEmitter::passed(Flux flux, Vec2 pixel, const Behind& behind) const {
-  if (behind.pattern != nullptr) {
+Flux PolygonEmitter::transmitted(Flux flux, Vec2 pixel, const Occluders& occluders) const {
+  if (occluders.pattern != nullptr) {
     std::array<StopPoint, kMaxStopCrossings> buffer;
-    const auto transmitted = band_.pattern->transmittance(behind.pattern->places(pixel, buffer));
+    const auto transmitted = band_.pattern->transmittance(occluders.pattern->stop_points(pixel, buffer));
     for (std::size_t c = 0; c < 3; ++c) flux[c] *= transmitted[c];
   }
-  if (behind.dirt != nullptr) {
-    const auto left = past_dirt(band_, *behind.dirt).passed(pixel);
+  if (occluders.dirt != nullptr) {
+    const auto left = dirt_transmittance(band_, *occluders.dirt).transmitted(pixel);
     for (std::size_t c = 0; c < 3; ++c) flux[c] *= left[c];
   }
   return flux;
 }
 
 void PolygonEmitter::emit_resolved(std::span<const Corner> polygon, double area_px, const CellLight& light,
-                                   const Behind& behind) {
-  const bool outlined = behind.dirt != nullptr && band_.dirt.band->outlines() != nullptr;
-  if (behind.dirt != nullptr && !outlined) return emit_behind_dirt(polygon, light.shade, behind);
-  if (behind.pattern != nullptr) {
-    patterns_.emit(polygon, area_px, light.shade, *behind.pattern, behind.most);
+                                   const Occluders& occluders) {
+  const bool outlined = occluders.dirt != nullptr && band_.dirt.band->outlines() != nullptr;
+  if (occluders.dirt != nullptr && !outlined) return emit_occluded_by_dirt(polygon, light.irradiance, occluders);
+  if (occluders.pattern != nullptr) {
+    patterns_.emit(polygon, area_px, light.irradiance, *occluders.pattern, occluders.max_transmittance);
   } else {
-    out_.add(points_.points_of(polygon), light.shade);
+    out_.add(points_.points_of(polygon), light.irradiance);
   }
-  if (outlined) emit_shadows(polygon, light, behind);
+  if (outlined) emit_shadows(polygon, light, occluders);
 }
 
 // A picture of dirt, and shapes that overlap many times, are looked up pixel by pixel.
-void PolygonEmitter::emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind) {
-  const PastDirt dirt = past_dirt(band_, *behind.dirt);
+void PolygonEmitter::emit_occluded_by_dirt(std::span<const Corner> polygon, const LinearIrradiance& irradiance,
+                                           const Occluders& occluders) {
+  const DirtTransmittance dirt = dirt_transmittance(band_, *occluders.dirt);
   const auto transmittance_at = [&](Vec2 pixel) {
     std::array<StopPoint, kMaxStopCrossings> buffer;
     std::array<double, 3> all{1.0, 1.0, 1.0};
-    if (behind.pattern != nullptr) all = band_.pattern->transmittance(behind.pattern->places(pixel, buffer));
-    const auto left = dirt.passed(pixel);
+    if (occluders.pattern != nullptr) all = band_.pattern->transmittance(occluders.pattern->stop_points(pixel, buffer));
+    const auto left = dirt.transmitted(pixel);
     for (std::size_t c = 0; c < 3; ++c) all[c] *= left[c];
     return all;
   };
   const std::span<const Point> points = points_.points_of(polygon);
-  out_.add(points, shade, pixel_pattern(points, band_.width, band_.height, 1, transmittance_at, out_));
+  out_.add(points, irradiance, pixel_pattern(points, band_.width, band_.height, 1, transmittance_at, out_));
 }
 
 // Shapes of dirt subtract their light as polygons of negative sign.
-void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Behind& behind) {
-  const DirtTriangle& dirt = *behind.dirt;
+void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Occluders& occluders) {
+  const DirtTriangle& dirt = *occluders.dirt;
   std::array<stop_patterns::PlaneView, kMaxStopCrossings> views;
   double finest_mm = 0.0;
   for (std::size_t c = 0; c < dirt.crossings; ++c) {
-    views[c] = stop_patterns::PlaneView::through(dirt.pixel, dirt.place_mm[c]);
+    views[c] = stop_patterns::PlaneView::through(dirt.pixel, dirt.point_mm[c]);
     finest_mm = c == 0 ? pixel_mm(views[c]) : std::min(finest_mm, pixel_mm(views[c]));
   }
   // The coordinates of the three corners in their cell, in the order in which they are drawn.
@@ -150,10 +153,11 @@ void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLig
                       double twice_area = 0.0;
                       for (std::size_t k = 0; k < shadow.size(); ++k) {
                         part[k].position = shadow[k];
-                        part[k].uv = in_cell.place(shadow[k]);
+                        part[k].uv = in_cell.at(shadow[k]);
                         if (k > 1) twice_area += cross(shadow[k - 1] - shadow[0], shadow[k] - shadow[0]);
                       }
-                      emit_resolved(part, 0.5 * std::abs(twice_area), taken, {behind.pattern, nullptr, behind.most});
+                      emit_resolved(part, 0.5 * std::abs(twice_area), taken,
+                                    {occluders.pattern, nullptr, occluders.max_transmittance});
                     });
 }
 
@@ -166,8 +170,8 @@ void PolygonEmitter::emit_line(std::span<const Corner> polygon, const Flux& flux
     }
   }
   const Vec2 along = ends[1] - ends[0];
-  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * length(along))), 1, kMostPoints);
-  Shade point;
+  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * length(along))), 1, kMaxPoints);
+  LinearIrradiance point;
   for (std::size_t c = 0; c < 3; ++c) point.value[c] = static_cast<float>(flux[c] / count);
   for (int k = 0; k < count; ++k) {
     const Vec2 p = ends[0] + along * ((k + 0.5) / count);

@@ -13,16 +13,16 @@
 #include "render/adaptive/emit/pattern_emitter.h"
 #include "render/adaptive/emit/points.h"
 #include "render/polygons/polygon_list.h"
-#include "render/stop_patterns/shadow_cutter.h"
+#include "render/stop_patterns/shadow_clipper.h"
 
 namespace contrejour::inline internal::adaptive {
 
-// What the light of a polygon has passed whose transmittance varies over the polygon. If dirt is set, the polygon lies
+// The occluders in front of a polygon whose transmittance varies over it. If dirt is set, the polygon lies
 // within its triangle.
-struct Behind {
+struct Occluders {
   const StopMap* pattern = nullptr;
   const DirtTriangle* dirt = nullptr;
-  double most = 1.0;  // largest transmittance of the stop pattern
+  double max_transmittance = 1.0;  // largest transmittance of the stop pattern
 };
 
 class PolygonEmitter {
@@ -31,19 +31,21 @@ class PolygonEmitter {
   PolygonEmitter(const BandContext& band, PolygonList& out) : band_(band), out_(out), patterns_(band, out) {}
 
   // light: of the whole cell or triangle that the polygon is a part of.
-  void emit(std::span<const Corner> polygon, const CellLight& light, const Behind& behind);
+  void emit(std::span<const Corner> polygon, const CellLight& light, const Occluders& occluders);
 
  private:
-  void emit_resolved(std::span<const Corner> polygon, double area_px, const CellLight& light, const Behind& behind);
-  void emit_behind_dirt(std::span<const Corner> polygon, const Shade& shade, const Behind& behind);
-  void emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Behind& behind);
+  void emit_resolved(std::span<const Corner> polygon, double area_px, const CellLight& light,
+                     const Occluders& occluders);
+  void emit_occluded_by_dirt(std::span<const Corner> polygon, const LinearIrradiance& irradiance,
+                             const Occluders& occluders);
+  void emit_shadows(std::span<const Corner> polygon, const CellLight& light, const Occluders& occluders);
   void emit_line(std::span<const Corner> polygon, const Flux& flux);
-  [[nodiscard]] Flux passed(Flux flux, Vec2 pixel, const Behind& behind) const;
+  [[nodiscard]] Flux transmitted(Flux flux, Vec2 pixel, const Occluders& occluders) const;
 
   const BandContext& band_;
   PolygonList& out_;
   PatternEmitter patterns_;
-  stop_patterns::ShadowCutter shadows_;
+  stop_patterns::ShadowClipper shadows_;
   PointBuffer points_;
 };
 

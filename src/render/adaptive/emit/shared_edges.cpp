@@ -19,7 +19,7 @@ struct Edge {
 class RecentEdges {
  public:
   explicit RecentEdges(std::size_t edges)
-      : slots_(std::min(std::bit_ceil(kRoom * std::max<std::size_t>(edges, 1)), kMostSlots)) {}
+      : slots_(std::min(std::bit_ceil(kSlotsPerEdge * std::max<std::size_t>(edges, 1)), kMaxSlots)) {}
 
   // Returns the kept edge with the same ends and forgets it; if there is none, keeps this edge and returns null.
   [[nodiscard]] const Edge* take_or_keep(const Edge& edge) {
@@ -33,7 +33,7 @@ class RecentEdges {
   }
 
  private:
-  static constexpr std::size_t kRoom = 8, kMostSlots = 4096;  // slots an edge; a power of two
+  static constexpr std::size_t kSlotsPerEdge = 8, kMaxSlots = 4096;  // slots an edge; a power of two
   struct Slot {
     bool used = false;
     Edge edge;
@@ -41,7 +41,7 @@ class RecentEdges {
   static std::size_t hash(Point p) {
     return (std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B1U ^ std::bit_cast<std::uint32_t>(p.y) * 0x85EBCA77U) >> 7U;
   }
-  // Whether the two polygons lie on opposite sides of the edge.
+  // Returns whether the two polygons lie on opposite sides of the edge.
   static bool same(const Edge& e, const Edge& f) {
     const bool along = e.a == f.a && e.b == f.b;
     const bool against = e.a == f.b && e.b == f.a;
@@ -60,7 +60,7 @@ bool meets_frame(std::span<const Point> corners, int width, int height) {
 }  // namespace
 
 void share_edges(PolygonList& list, int width, int height) {
-  list.partner.assign(list.corners.size(), PolygonList::kAlone);
+  list.neighbour.assign(list.corners.size(), PolygonList::kUnshared);
   if (list.polygons.size() < 2) return;
   RecentEdges recent(list.corners.size());
   for (std::size_t p = 0; p < list.polygons.size(); ++p) {
@@ -73,9 +73,9 @@ void share_edges(PolygonList& list, int width, int height) {
                       corners[k + 1 == polygon.count ? 0 : k + 1], polygon.turns_left != 0};
       const Edge* const other = recent.take_or_keep(edge);
       if (other == nullptr) continue;
-      list.partner[edge.corner] = PolygonList::kNotDrawn;
-      const bool changes = list.shade_of(list.polygons[other->polygon]) != list.shade_of(polygon);
-      list.partner[other->corner] = changes ? edge.polygon : PolygonList::kNotDrawn;
+      list.neighbour[edge.corner] = PolygonList::kSkipped;
+      const bool changes = list.irradiance_of(list.polygons[other->polygon]) != list.irradiance_of(polygon);
+      list.neighbour[other->corner] = changes ? edge.polygon : PolygonList::kSkipped;
     }
   }
 }

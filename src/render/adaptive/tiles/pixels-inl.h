@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/channel_vector-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
@@ -59,12 +59,12 @@ struct PixelsOf {
     return made_of([&](std::size_t p) HWY_ATTR { return lookup(by_pixel, kIndices.pixel[p]); });
   }
   // Repeats the same channels for each pixel.
-  static HWY_INLINE PixelsOf each(const QuadOf<T>& channels) {
-    if constexpr (QuadOf<T>::kLanes == kQuad) {
+  static HWY_INLINE PixelsOf each(const ChannelVectorOf<T>& channels) {
+    if constexpr (ChannelVectorOf<T>::kLanes == kVectorChannels) {
       return made_of([&](std::size_t p)
                          HWY_ATTR { return lookup(widened(Tag(), channels.part[0]), kIndices.channel[p]); });
     } else {
-      T repeated[2 * kQuad];
+      T repeated[2 * kVectorChannels];
       channels.store(repeated);
       channels.store(repeated + kChannels);
       return made_of([&](std::size_t p) HWY_ATTR { return hn::LoadU(Tag(), repeated + p * kLanes % kChannels); });
@@ -94,8 +94,8 @@ struct PixelsOf {
     return hn::TableLookupLanes(in, hn::SetTableIndices(Tag(), at));
   }
   template <class D>
-  static HWY_INLINE hn::Vec<D> widened(D d, hn::Vec<typename QuadOf<T>::Tag> quad) {
-    if constexpr (hn::MaxLanes(d) == kQuad)
+  static HWY_INLINE hn::Vec<D> widened(D d, hn::Vec<typename ChannelVectorOf<T>::Tag> quad) {
+    if constexpr (hn::MaxLanes(d) == kVectorChannels)
       return quad;
     else
       return ZeroExtendVector(d, quad);  // found by its arguments' types: scalar targets lack it
@@ -113,7 +113,7 @@ class PixelLine {
   using Pixels = PixelsOf<T>;
 
   // line: its level is that of the middle of pixel 0.
-  explicit HWY_INLINE PixelLine(const QuadLine<T>& line)
+  explicit HWY_INLINE PixelLine(const ChannelLine<T>& line)
       : slope_(Pixels::each(line.slope)), level_(multiply_add(slope_, Pixels::numbers(), Pixels::each(line.level))) {}
 
   // The light of the pixels from `first` on.

@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // Marks sums of coverage alone, which is not multiplied by an irradiance.
-struct NoShade {};
+struct NoIrradiance {};
 
 // For an edge inside the tile's columns, from a down to b, clipped to its rows: calls `visit` with each row, the points
 // at which the edge enters and leaves it, and the edge's height there.
@@ -48,7 +48,7 @@ HWY_INLINE void for_each_row(int height, Vec2 a, Vec2 b, const Visit& visit) {
 // Adds an edge that moves no more than a pixel to the side in a row, thus over three columns at most, without branches
 // on where it crosses from one to the next. x is relative to the column in which the edge is farthest left, rows to the
 // first one, so that floats are accurate enough.
-HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_steep_cover(CoverageSums& tile, Vec2 a, Vec2 b, double sign) {
   const FloatTag d;
   const IntTag di;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
@@ -65,7 +65,7 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
   const auto from = all(top - first_row), to = all(bottom - first_row), one = hn::Set(d, 1.0F);
   const auto x_at = [&](hn::Vec<FloatTag> y)
                         HWY_ATTR { return hn::Min(hn::Max(hn::MulAdd(slope, y, at_zero), low), high); };
-  CoverSums::Changed& changed = tile.changed_by(sign);
+  CoverageSums::Changed& changed = tile.changed_by(sign);
   for (int k = 0; k < rows; k += kLanes) {
     const auto row = hn::Iota(d, static_cast<float>(k));
     const auto y0 = hn::Max(row, from), y1 = hn::Min(hn::Add(row, one), to);
@@ -100,16 +100,16 @@ HWY_INLINE void add_steep_cover(CoverSums& tile, Vec2 a, Vec2 b, double sign) {
 }
 
 // Adds a segment of an edge within a row. Coverage increases over the columns from `left` to `right` and is dy beyond;
-// each sum receives what the segment covers of its column minus what it covers of the column before. half_rise: half of
-// the increase of coverage over a column.
-HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double right, double dy, double half_rise) {
+// each sum receives what the segment covers of its column minus what it covers of the column before. half_slope: half
+// of the increase of coverage over a column.
+HWY_INLINE void add_flat_cover(CoverageSums& tile, int row, double left, double right, double dy, double half_slope) {
   const FloatTag d;
   const auto first = static_cast<int>(left), last = static_cast<int>(right);
   tile.changed_by(dy).add(row, first, last + 1);
   float* const to = tile.at(row, first);
   const auto all = [&](double v) { return hn::Set(d, static_cast<float>(v)); };
   const auto from = all(left - first), width = all(right - left), one = hn::Set(d, 1.0F), none = hn::Zero(d);
-  const auto high = all(dy), half = all(half_rise), end = all(last + 1 - first);
+  const auto high = all(dy), half = all(half_slope), end = all(last + 1 - first);
   const auto within = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(u, none), width); };
   const auto beyond = [&](hn::Vec<FloatTag> u) HWY_ATTR { return hn::Min(hn::Max(hn::Sub(u, width), none), one); };
   for (int k = 0; k <= last + 1 - first; k += static_cast<int>(hn::Lanes(d))) {
@@ -125,12 +125,12 @@ HWY_INLINE void add_flat_cover(CoverSums& tile, int row, double left, double rig
   }
 }
 
-HWY_INLINE void add_edge(CoverSums& tile, NoShade /*none*/, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_edge(CoverageSums& tile, NoIrradiance /*none*/, Vec2 a, Vec2 b, double sign) {
   const double dx = std::abs(b.x - a.x), dy = b.y - a.y;
   if (dx <= dy) return add_steep_cover(tile, a, b, sign);
-  const double half_rise = 0.5 * sign * dy / dx;
+  const double half_slope = 0.5 * sign * dy / dx;
   for_each_row(tile.height, a, b, [&](int row, double x, double x_next, double height) HWY_ATTR {
-    add_flat_cover(tile, row, std::min(x, x_next), std::max(x, x_next), sign * height, half_rise);
+    add_flat_cover(tile, row, std::min(x, x_next), std::max(x, x_next), sign * height, half_slope);
   });
 }
 

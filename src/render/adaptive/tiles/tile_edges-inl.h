@@ -13,32 +13,32 @@
 #include <cmath>
 #include <utility>
 
+#include "render/adaptive/tiles/channel_vector-inl.h"
 #include "render/adaptive/tiles/pixels-inl.h"
-#include "render/adaptive/tiles/quad-inl.h"
 #include "render/adaptive/tiles/tile_sums.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 // The irradiance of a polygon in the form that a row of pixels needs: a line along x, and its change by row.
-struct RowShade {
-  QuadLine<double> line;
-  DoubleQuad by_row;
+struct RowIrradiance {
+  ChannelLine<double> line;
+  DoubleChannelVector by_row;
 
-  [[nodiscard]] HWY_INLINE QuadLine<double> at(int row) const {
-    return {multiply_add(by_row, DoubleQuad::all(row), line.level), line.slope};
+  [[nodiscard]] HWY_INLINE ChannelLine<double> at(int row) const {
+    return {multiply_add(by_row, DoubleChannelVector::all(row), line.level), line.slope};
   }
   // The change across an edge from polygon b to polygon a.
-  friend HWY_INLINE RowShade operator-(const RowShade& a, const RowShade& b) {
+  friend HWY_INLINE RowIrradiance operator-(const RowIrradiance& a, const RowIrradiance& b) {
     return {a.line - b.line, a.by_row - b.by_row};
   }
 };
 
-HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
-  const auto x = DoubleQuad::all(tile.x0 + 0.5 - static_cast<double>(shade.at.x));  // pixel centres
-  const auto y = DoubleQuad::all(tile.y0 + 0.5 - static_cast<double>(shade.at.y));
-  const auto along_x = to_doubles(shade.along_x.data()), along_y = to_doubles(shade.along_y.data());
-  const auto level = multiply_add(along_x, x, multiply_add(along_y, y, to_doubles(shade.value.data())));
+HWY_INLINE RowIrradiance row_irradiance(const LinearIrradiance& irradiance, const TileSums& tile) {
+  const auto x = DoubleChannelVector::all(tile.x0 + 0.5 - static_cast<double>(irradiance.at.x));  // pixel centres
+  const auto y = DoubleChannelVector::all(tile.y0 + 0.5 - static_cast<double>(irradiance.at.y));
+  const auto along_x = to_doubles(irradiance.along_x.data()), along_y = to_doubles(irradiance.along_y.data());
+  const auto level = multiply_add(along_x, x, multiply_add(along_y, y, to_doubles(irradiance.value.data())));
   return {{level, along_x}, along_y};
 }
 
@@ -46,7 +46,7 @@ HWY_INLINE RowShade row_shade(const Shade& shade, const TileSums& tile) {
 struct StretchCover {
   double to_left;  // from the first counted column
   double width;
-  double all, half_rise;  // half of the rise over a column
+  double all, half_slope;  // half of the rise over a column
 
   // The coverage of neighbouring columns from `first` on.
   [[nodiscard]] HWY_INLINE hn::Vec<RowTag<double>> at(int first) const {
@@ -56,8 +56,8 @@ struct StretchCover {
     const auto u = hn::Sub(hn::Iota(d, static_cast<double>(first)), hn::Set(d, to_left)), next = hn::Add(u, one);
     const auto here = within(u), after = within(next);
     const auto beyond = hn::Min(hn::Max(hn::Sub(next, end), none), one);  // exact to the last bit where it is `all`
-    const auto rise = hn::Mul(hn::Set(d, half_rise), hn::Mul(hn::Sub(after, here), hn::Add(after, here)));
-    return hn::MulAdd(hn::Set(d, all), beyond, rise);
+    const auto slope = hn::Mul(hn::Set(d, half_slope), hn::Mul(hn::Sub(after, here), hn::Add(after, here)));
+    return hn::MulAdd(hn::Set(d, all), beyond, slope);
   }
 };
 
@@ -101,8 +101,8 @@ class EdgeRows {
   [[nodiscard]] HWY_INLINE int last_block(int k) const { return last_[k]; }
   [[nodiscard]] HWY_INLINE double height(int k) const { return height_[k]; }
   // The coverage in row k; columns are counted from the segment's first block.
-  [[nodiscard]] HWY_INLINE StretchCover cover(int k, double all, double half_rise) const {
-    return {to_left_[k], width_[k], all, half_rise};
+  [[nodiscard]] HWY_INLINE StretchCover cover(int k, double all, double half_slope) const {
+    return {to_left_[k], width_[k], all, half_slope};
   }
 
  private:
@@ -126,36 +126,36 @@ HWY_INLINE void add_stretch(TileSums& tile, int row, int first_block, int last_b
   tile.touch(row, first_block, last_block);
 }
 
-HWY_INLINE void add_change(TileSums& tile, int row, int block, const QuadLine<double>& line, double times) {
+HWY_INLINE void add_change(TileSums& tile, int row, int block, const ChannelLine<double>& line, double times) {
   double* const change = tile.change_after(row, block);
-  add_times(QuadLine<double>::load(change), line, times).store(change);
+  add_times(ChannelLine<double>::load(change), line, times).store(change);
 }
 
 // Adds a step at a column's left border that extends over all of the row's height.
-HWY_INLINE void add_step(TileSums& tile, int row, int column, const QuadLine<double>& line, double times) {
+HWY_INLINE void add_step(TileSums& tile, int row, int column, const ChannelLine<double>& line, double times) {
   const int block = std::min(column / TileSums::kBlock, tile.blocks() - 1), from = TileSums::kBlock * block;
-  const PixelLine<double> light(QuadLine<double>{line.at(from), line.slope});
+  const PixelLine<double> light(ChannelLine<double>{line.at(from), line.slope});
   add_stretch(tile, row, block, block, {static_cast<double>(column - from), 0.0, times, 0.0}, light);
   add_change(tile, row, block, line, times);
 }
 
-HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, double sign) {
+HWY_INLINE void add_edge(TileSums& tile, const RowIrradiance& irradiance, Vec2 a, Vec2 b, double sign) {
   constexpr double kSteepest = 1e100;  // its square is still finite
   EdgeRows rows(tile, a, b);
   const int first = rows.first_row(), end = rows.end_row();
   const double dx = std::abs(b.x - a.x);
-  const double half_rise = dx != 0.0 ? 0.5 * sign * std::min((b.y - a.y) / dx, kSteepest) : 0.0;
-  const PixelLine<double> light(shade.line);
-  const auto by_row = PixelsOf<double>::each(shade.by_row);
+  const double half_slope = dx != 0.0 ? 0.5 * sign * std::min((b.y - a.y) / dx, kSteepest) : 0.0;
+  const PixelLine<double> light(irradiance.line);
+  const auto by_row = PixelsOf<double>::each(irradiance.by_row);
   for (int row = first; row < end;) {
     rows.set_rows(row);
     const int count = std::min(EdgeRows::kAtOnce, end - row);
     for (int k = 0; k < count; ++k, ++row) {
       const int first_block = rows.first_block(k), last_block = rows.last_block(k);
       const double all = sign * rows.height(k);
-      add_stretch(tile, row, first_block, last_block, rows.cover(k, all, half_rise),
+      add_stretch(tile, row, first_block, last_block, rows.cover(k, all, half_slope),
                   light.raised(by_row, row).from(TileSums::kBlock * first_block));
-      add_change(tile, row, last_block, shade.at(row), all);
+      add_change(tile, row, last_block, irradiance.at(row), all);
     }
   }
 }
@@ -163,8 +163,8 @@ HWY_INLINE void add_edge(TileSums& tile, const RowShade& shade, Vec2 a, Vec2 b, 
 // Adds an edge that for_each_edge() visits. Parts of it left of the tile count as on the tile's border, or not at all
 // where sums are carried from tile to tile; parts to the right do not count. For coverage alone, add_edge() is in
 // tile_cover-inl.h.
-template <class Sums, class AnyShade>
-void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign) {
+template <class Sums, class AnyIrradiance>
+void add_clipped(Sums& tile, const AnyIrradiance& irradiance, Vec2 a, Vec2 b, double sign) {
   const double width = tile.width;
   if (a.y > b.y) {
     std::swap(a, b);
@@ -172,9 +172,9 @@ void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign)
   }
   const double low = std::min(a.x, b.x);
   const double high = std::max(a.x, b.x);
-  if (low >= 0.0 && high < width) return add_edge(tile, shade, a, b, sign);
+  if (low >= 0.0 && high < width) return add_edge(tile, irradiance, a, b, sign);
   if (high <= 0.0 && tile.is_carried()) return;
-  if (high <= 0.0) return add_edge(tile, shade, {0.0, a.y}, {0.0, b.y}, sign);
+  if (high <= 0.0) return add_edge(tile, irradiance, {0.0, a.y}, {0.0, b.y}, sign);
   const auto at_x = [&](double x) {
     return Vec2{x, std::clamp(a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x), a.y, b.y)};
   };
@@ -182,10 +182,10 @@ void add_clipped(Sums& tile, const AnyShade& shade, Vec2 a, Vec2 b, double sign)
   const Vec2 right = high >= width ? at_x(width) : (a.x < b.x ? b : a);
   const Vec2 upper = left.y < right.y ? left : right;
   const Vec2 lower = left.y < right.y ? right : left;
-  if (upper.y < lower.y) add_edge(tile, shade, upper, lower, sign);
+  if (upper.y < lower.y) add_edge(tile, irradiance, upper, lower, sign);
   if (low >= 0.0 || tile.is_carried()) return;
-  if (a.x < 0.0 && a.y < left.y) add_edge(tile, shade, {0.0, a.y}, {0.0, left.y}, sign);
-  if (b.x < 0.0 && left.y < b.y) add_edge(tile, shade, {0.0, left.y}, {0.0, b.y}, sign);
+  if (a.x < 0.0 && a.y < left.y) add_edge(tile, irradiance, {0.0, a.y}, {0.0, left.y}, sign);
+  if (b.x < 0.0 && left.y < b.y) add_edge(tile, irradiance, {0.0, left.y}, {0.0, b.y}, sign);
 }
 
 // Visits the polygon's edges that cross the tile's rows left of its right border, with their ends relative to the

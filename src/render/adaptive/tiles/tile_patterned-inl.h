@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <span>
 
+#include "render/adaptive/tiles/channel_vector-inl.h"
 #include "render/adaptive/tiles/pixels-inl.h"
-#include "render/adaptive/tiles/quad-inl.h"
 #include "render/adaptive/tiles/tile_cover-inl.h"
 #include "render/adaptive/tiles/tile_edges-inl.h"
 #include "render/adaptive/tiles/tile_fringes-inl.h"
@@ -30,7 +30,7 @@ namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 // A transmittance for each pixel, from a polygon's own table.
 class PixelTable {
  public:
-  static constexpr bool kGrey = false;
+  static constexpr bool kMonochrome = false;
   PixelTable(const PolygonList& list, const Pattern& pattern)
       : spans_(list.spans.data() + pattern.first, pattern.count), pixels_(list.pixels.data()) {}
 
@@ -41,15 +41,15 @@ class PixelTable {
     count_ = span.count;
     skipped_ = row.first - span.x;
   }
-  [[nodiscard]] const PixelTable& look(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
+  [[nodiscard]] const PixelTable& lookup(const PixelRow& /*row*/, Groups /*wanted*/) const { return *this; }
   [[nodiscard]] const PixelTable& vector(int /*k*/) const { return *this; }
   // Nothing of the polygon lies in pixels that the table lacks.
-  [[nodiscard]] Quad passed(int k) const {
+  [[nodiscard]] ChannelVector transmitted(int k) const {
     const auto at = static_cast<std::size_t>(skipped_ + k);
-    if (at >= count_) return Quad::all(0.0F);
+    if (at >= count_) return ChannelVector::all(0.0F);
     const std::array<float, 3>& value = values_[at];
     const float all[] = {value[0], value[1], value[2], 0.0F};
-    return Quad::load(all);
+    return ChannelVector::load(all);
   }
 
  private:
@@ -61,60 +61,60 @@ class PixelTable {
 };
 
 // The mean of look-ups at the middles of `across` x `across` parts of each pixel.
-template <class Look>
-class MeanOfLooks {
+template <class Lookup>
+class MeanOfSamples {
  public:
-  static constexpr bool kGrey = Look::kGrey;
-  MeanOfLooks(Look& look, int across) : look_(look), across_(across) {}
+  static constexpr bool kMonochrome = Lookup::kMonochrome;
+  MeanOfSamples(Lookup& lookup, int across) : lookup_(lookup), across_(across) {}
 
   void set_row(const PixelRow& /*row*/) const {}
-  HWY_INLINE const MeanOfLooks& look(const PixelRow& row, Groups wanted) {
+  HWY_INLINE const MeanOfSamples& lookup(const PixelRow& row, Groups wanted) {
     std::fill_n(sum_, kNumbers * static_cast<std::size_t>(row.count + kLanes), 0.0F);
     const auto middle = [&](int part) { return (part + 0.5) / across_ - 0.5; };
     for (int part = 0; part < across_ * across_; ++part) {
       const PixelRow moved = row.moved({middle(part % across_), middle(part / across_)});
-      if constexpr (requires { look_.expect_row(moved); }) look_.expect_row(moved);
-      look_.set_row(moved);
-      add(look_.look(moved, wanted), row.count);
+      if constexpr (requires { lookup_.expect_row(moved); }) lookup_.expect_row(moved);
+      lookup_.set_row(moved);
+      add(lookup_.lookup(moved, wanted), row.count);
     }
     return *this;
   }
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const
-    requires kGrey
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> transmitted(int k) const
+    requires kMonochrome
   {
     return hn::LoadU(FloatTag(), sum_ + k);
   }
-  [[nodiscard]] const MeanOfLooks& vector(int /*k*/) const { return *this; }
-  [[nodiscard]] HWY_INLINE Quad passed(int k) const
-    requires(!kGrey)
+  [[nodiscard]] const MeanOfSamples& vector(int /*k*/) const { return *this; }
+  [[nodiscard]] HWY_INLINE ChannelVector transmitted(int k) const
+    requires(!kMonochrome)
   {
-    return Quad::load(sum_ + kQuad * static_cast<std::size_t>(k));
+    return ChannelVector::load(sum_ + kVectorChannels * static_cast<std::size_t>(k));
   }
 
  private:
   static constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
-  static constexpr std::size_t kNumbers = kGrey ? 1 : kQuad;  // for a pixel
+  static constexpr std::size_t kNumbers = kMonochrome ? 1 : kVectorChannels;  // for a pixel
 
   template <class Row>
   HWY_INLINE void add(const Row& one, int count) {
-    const float share = 1.0F / static_cast<float>(across_ * across_);
+    const float weight = 1.0F / static_cast<float>(across_ * across_);
     for (int k = 0; k < count; k += kLanes) {
-      if constexpr (kGrey) {
+      if constexpr (kMonochrome) {
         const FloatTag d;
-        hn::StoreU(hn::MulAdd(one.passed(k), hn::Set(d, share), hn::LoadU(d, sum_ + k)), d, sum_ + k);
+        hn::StoreU(hn::MulAdd(one.transmitted(k), hn::Set(d, weight), hn::LoadU(d, sum_ + k)), d, sum_ + k);
       } else {
-        const auto& seen = one.vector(k);
+        const auto& values = one.vector(k);
         for (int j = k; j < std::min(k + kLanes, count); ++j) {
-          float* const to = sum_ + kQuad * static_cast<std::size_t>(j);
-          multiply_add(seen.passed(j), Quad::all(share), Quad::load(to)).store(to);
+          float* const to = sum_ + kVectorChannels * static_cast<std::size_t>(j);
+          multiply_add(values.transmitted(j), ChannelVector::all(weight), ChannelVector::load(to)).store(to);
         }
       }
     }
   }
 
-  Look& look_;
+  Lookup& lookup_;
   int across_;
-  HWY_ALIGN float sum_[kNumbers * (kRowRoom + static_cast<std::size_t>(kLanes))];
+  HWY_ALIGN float sum_[kNumbers * (kRowCapacity + static_cast<std::size_t>(kLanes))];
 };
 
 // A row's coverage from its changes, which are cleared, some pixels after another. Coverage below rounding errors is
@@ -142,12 +142,12 @@ class RunningCover {
     }
     sum = hn::Add(sum, before_);
     before_ = hn::TableLookupLanes(sum, hn::IndicesFromVec(d, hn::Set(IntTag(), kLanes - 1)));
-    const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kUnseenCover)), sum);
+    const auto cover = hn::IfThenElseZero(hn::Gt(sum, hn::Set(d, TileSums::kNegligibleCoverage)), sum);
     const int left = count_ - k;
     if (left >= static_cast<int>(kLanes)) return cover;
     return hn::IfThenElseZero(hn::FirstN(d, static_cast<std::size_t>(std::max(left, 0))), cover);
   }
-  // Whether the pixel before the next one is fully covered.
+  // Returns whether the pixel before the next one is fully covered.
   [[nodiscard]] HWY_INLINE bool is_whole() const {
     constexpr float kWhole = 1.0F - 1e-5F;  // for rounding
     return hn::GetLane(before_) >= kWhole;
@@ -161,8 +161,8 @@ class RunningCover {
 
 // Adds fully covered pixels of a row where the pattern transmits all light: as changes along the row, like any
 // polygon's.
-HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowShade& shade) {
-  const QuadLine<double> line = shade.at(row);
+HWY_INLINE void add_level(TileSums& tile, int row, int first, int end, const RowIrradiance& irradiance) {
+  const ChannelLine<double> line = irradiance.at(row);
   add_step(tile, row, first, line, 1.0);
   add_step(tile, row, end, line, -1.0);
 }
@@ -175,39 +175,41 @@ struct CoveredRow {
 };
 
 // A polygon's irradiance times the transmittance, for some pixels at once; beyond the row there is nothing.
-template <bool kGrey>  // one value serves all channels
+template <bool kMonochrome>  // one value serves all channels
 class PixelLight {
   using Pixels = PixelsOf<float>;
 
  public:
-  explicit PixelLight(const RowShade& shade)
-      : line_(QuadLine<float>{to_floats(shade.line.level), to_floats(shade.line.slope)}),
-        by_row_(Pixels::each(to_floats(shade.by_row))) {}
+  explicit PixelLight(const RowIrradiance& irradiance)
+      : line_(ChannelLine<float>{to_floats(irradiance.line.level), to_floats(irradiance.line.slope)}),
+        by_row_(Pixels::each(to_floats(irradiance.by_row))) {}
 
   class Row {
    public:
     HWY_INLINE Row(const PixelLight& all, const CoveredRow& row)
         : light_(all.line_.raised(all.by_row_, row.row).from(row.first)), count_(row.count) {}
     // Adds the covered parts of the pixels from k on to the row at `to`.
-    template <class Look>
-    HWY_INLINE void add(const Look& look, hn::Vec<FloatTag> cover, int k, float* to) const {
-      if constexpr (kGrey) {
-        add_level(hn::Mul(cover, look.passed(k)), k, to);
+    template <class Lookup>
+    HWY_INLINE void add(const Lookup& lookup, hn::Vec<FloatTag> cover, int k, float* to) const {
+      if constexpr (kMonochrome) {
+        add_level(hn::Mul(cover, lookup.transmitted(k)), k, to);
       } else {
-        const auto& seen = look.vector(k);
-        HWY_ALIGN float passed[kChannels * Pixels::kLanes + 1] = {};
+        const auto& values = lookup.vector(k);
+        HWY_ALIGN float transmitted[kChannels * Pixels::kLanes + 1] = {};
         for (int j = 0; j < std::min(Pixels::kCount, count_ - k); ++j)
-          seen.passed(k + j).store(passed + kChannels * static_cast<std::size_t>(j));
-        add_shares(Pixels::of(cover) * Pixels::load(passed), k, to);
+          values.transmitted(k + j).store(transmitted + kChannels * static_cast<std::size_t>(j));
+        add_weighted(Pixels::of(cover) * Pixels::load(transmitted), k, to);
       }
     }
     // Adds pixels that transmit all light.
-    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, float* to) const { add_shares(Pixels::of(cover), k, to); }
+    HWY_INLINE void add_level(hn::Vec<FloatTag> cover, int k, float* to) const {
+      add_weighted(Pixels::of(cover), k, to);
+    }
 
    private:
-    HWY_INLINE void add_shares(const Pixels& shares, int k, float* to) const {
+    HWY_INLINE void add_weighted(const Pixels& weights, int k, float* to) const {
       float* const at = to + kChannels * static_cast<std::size_t>(k);
-      multiply_add(shares, light_.at(k), Pixels::load(at)).store(at);
+      multiply_add(weights, light_.at(k), Pixels::load(at)).store(at);
     }
     PixelLine<float> light_;
     int count_;
@@ -272,30 +274,31 @@ struct RowOfPixels {
   float* to;
 
   RowOfPixels(TileSums& tile, const CoveredRow& r)
-      : columns(r), cover(tile.cover.at(r.row, r.first), r.first + r.count < tile.width ? kRowRoom : r.count),
+      : columns(r), cover(tile.cover.at(r.row, r.first), r.first + r.count < tile.width ? kRowCapacity : r.count),
         to(tile.light_at(r.row) + TileSums::kPixel * static_cast<std::size_t>(r.first)) {}
 };
 
-template <class Passed, class LightRow>
-HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Passed& passed, const LightRow& light) {
+template <class Transmitted, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const Transmitted& transmitted, const LightRow& light) {
   const int count = row.columns.count;
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(FloatTag())))
-    light.add(passed, row.cover.next(k), k, row.to);
+    light.add(transmitted, row.cover.next(k), k, row.to);
   tile.light_groups(row.columns.row, row.columns.first, first_groups((count + kGroup - 1) / kGroup));
 }
 
 // Draws a row without look-ups for groups in which the pattern is dark or transmits all light. Where such groups are
 // fully covered and no edge changes that, coverage is not summed either, and their light is added as steps.
-template <class Passed, class LightRow>
-HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, const SeenGroups& seen,
-                        const Passed& passed, const LightRow& light) {
+template <class Transmitted, class LightRow>
+HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowIrradiance& irradiance, const UniformGroups& uniform,
+                        const Transmitted& transmitted, const LightRow& light) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
   const CoveredRow& columns = row.columns;
   const int groups = (columns.count + kGroup - 1) / kGroup;
   const int even_first = (columns.even_first - columns.first + kGroup - 1) / kGroup;
   const int even_end = (columns.even_end - columns.first) / kGroup;
   Groups skipped = 0, lit = 0;
-  if (even_first < even_end) skipped = (seen.dark | seen.level) & first_groups(even_end) & ~first_groups(even_first);
+  if (even_first < even_end)
+    skipped = (uniform.dark | uniform.level) & first_groups(even_end) & ~first_groups(even_first);
   for (int group = 0; group < groups;) {
     if ((skipped >> static_cast<unsigned>(group) & 1U) != 0) {
       if (row.cover.is_whole()) {
@@ -305,86 +308,88 @@ HWY_INLINE void add_row(TileSums& tile, RowOfPixels row, const RowShade& shade, 
       skipped = 0;
     }
     const Groups bit = Groups{1} << static_cast<unsigned>(group);
-    const bool is_dark = (seen.dark & bit) != 0, is_level = (seen.level & bit) != 0;
+    const bool is_dark = (uniform.dark & bit) != 0, is_level = (uniform.level & bit) != 0;
     if (!is_dark) lit |= bit;
     for (int k = kGroup * group; k < kGroup * (group + 1); k += kLanes) {
       const auto cover = row.cover.next(k);
       if (is_level)
         light.add_level(cover, k, row.to);
       else if (!is_dark)
-        light.add(passed, cover, k, row.to);
+        light.add(transmitted, cover, k, row.to);
     }
     ++group;
   }
-  for (Groups level = skipped & seen.level; level != 0;) {
+  for (Groups level = skipped & uniform.level; level != 0;) {
     const int from = std::countr_zero(level), end = from + std::countr_one(level >> static_cast<unsigned>(from));
-    add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, shade);
+    add_level(tile, columns.row, columns.first + kGroup * from, columns.first + kGroup * end, irradiance);
     level &= ~first_groups(end);
   }
   tile.light_groups(columns.row, columns.first, lit);
 }
 
-template <class Look>
-void add_pixels(TileSums& tile, const Shade& of, const PatternMap& map, const PixelRows& within, Look& look) {
+template <class Lookup>
+void add_pixels(TileSums& tile, const LinearIrradiance& of, const PatternMap& map, const PixelRows& within,
+                Lookup& lookup) {
   constexpr int kShort = 4 * kGroup;  // pixels: in shorter rows, testing groups costs more than it saves
   const CoveredRows rows(tile, within);
   const auto pixels_of = [&](const CoveredRow& r) {
     return PixelRow(tile.x0 + r.first, r.count, tile.y0 + r.row, map.origin_px);
   };
   const auto expect = [&](const auto& row) {
-    if constexpr (requires { look.expect_row(pixels_of(*row)); })
-      if (row != rows.all().end()) look.expect_row(pixels_of(*row));
+    if constexpr (requires { lookup.expect_row(pixels_of(*row)); })
+      if (row != rows.all().end()) lookup.expect_row(pixels_of(*row));
   };
   expect(rows.all().begin());
-  const RowShade shade = row_shade(of, tile);
-  using Light = PixelLight<Look::kGrey>;
-  const Light light(shade);
+  const RowIrradiance irradiance = row_irradiance(of, tile);
+  using Light = PixelLight<Lookup::kMonochrome>;
+  const Light light(irradiance);
   for (auto at = rows.all().begin(); at != rows.all().end(); ++at) {
     const CoveredRow& r = *at;
     const PixelRow pixels = pixels_of(r);
-    look.set_row(pixels);
+    lookup.set_row(pixels);
     expect(at + 1);
     const RowOfPixels row(tile, r);
     const typename Light::Row light_of_row(light, r);
     const Groups all = first_groups((r.count + kGroup - 1) / kGroup);
-    if constexpr (requires { look.seen(pixels); }) {
+    if constexpr (requires { lookup.uniform(pixels); }) {
       if (r.count > kShort) {
-        const SeenGroups seen = look.seen(pixels);
-        add_row(tile, row, shade, seen, look.look(pixels, all & ~(seen.dark | seen.level)), light_of_row);
+        const UniformGroups uniform = lookup.uniform(pixels);
+        add_row(tile, row, irradiance, uniform, lookup.lookup(pixels, all & ~(uniform.dark | uniform.level)),
+                light_of_row);
         continue;
       }
     }
-    add_row(tile, row, look.look(pixels, all), light_of_row);
+    add_row(tile, row, lookup.lookup(pixels, all), light_of_row);
   }
 }
 
 void add_patterned(TileSums& tile, const PolygonList& list, const Polygon& polygon, const TileInput& input) {
   tile.make_light();
   const PixelRows within = rows_under(tile, list.corners_of(polygon));
-  CoverSums& cover = tile.cover;
+  CoverageSums& cover = tile.cover;
   cover.width = tile.width;
   cover.height = tile.height;
   cover.set_columns(within.low_column, within.high_column);
   for_each_edge(tile, list, polygon,
-                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoShade(), a, b, sign); });
+                [&](Vec2 a, Vec2 b, std::size_t, double sign) { add_clipped(cover, NoIrradiance(), a, b, sign); });
   const Pattern& pattern = list.patterns[polygon.pattern - 1];
-  const Shade& shade = list.shade_of(polygon);
-  const auto add = [&](auto&& look) {
-    if (pattern.samples <= 1) return add_pixels(tile, shade, pattern.map, within, look);
-    MeanOfLooks mean(look, static_cast<int>(pattern.samples));
-    add_pixels(tile, shade, pattern.map, within, mean);
+  const LinearIrradiance& irradiance = list.irradiance_of(polygon);
+  const auto add = [&](auto&& lookup) {
+    if (pattern.samples <= 1) return add_pixels(tile, irradiance, pattern.map, within, lookup);
+    MeanOfSamples mean(lookup, static_cast<int>(pattern.samples));
+    add_pixels(tile, irradiance, pattern.map, within, mean);
   };
   if (pattern.kind == PatternKind::Pixels) return add(PixelTable(list, pattern));
   if (pattern.kind == PatternKind::Texture) {
     const TextureTable& table = *input.textures[pattern.table];
-    if (table.of_one()) return add(GreyTexture(table, pattern));
+    if (table.of_one()) return add(MonochromeTexture(table, pattern));
     return add(ColourTexture(table, pattern, list.weights[pattern.weights]));
   }
   const EdgeTable& table = list.edge_tables[pattern.table];
   const FringeInput from{list, table, {list.active.data() + pattern.first, pattern.count}, input.outline, pattern.map};
-  if (!table.grey) return add(Fringes(from));
-  if (from.edges() == 1 && !table.of_outline) return add(GreyFringe(from));
-  add(GreyFringes(from));
+  if (!table.is_monochrome) return add(Fringes(from));
+  if (from.edges() == 1 && !table.of_outline) return add(MonochromeFringe(from));
+  add(MonochromeFringes(from));
 }
 
 }  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE

@@ -17,8 +17,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "render/adaptive/tiles/channel_vector-inl.h"
 #include "render/adaptive/tiles/pixels-inl.h"
-#include "render/adaptive/tiles/quad-inl.h"
 #include "render/adaptive/tiles/tile_canvas.h"
 #include "render/adaptive/tiles/tile_sums.h"
 
@@ -28,10 +28,10 @@ namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 // Draws a block's pixels of a row to `to`. The sums of the block are read and cleared, also beyond the tile's border.
 // line: the row's line before the block, and on return after it.
 template <bool kTouched, bool kLit>
-HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>& line, float* to) {
+HWY_INLINE void draw_block(TileSums& tile, int row, int block, ChannelLine<double>& line, float* to) {
   const int first = TileSums::kBlock * block;
   // Relative to the block, instead of to the tile's border, floats are accurate enough.
-  const PixelLine<float> level(QuadLine<float>{to_floats(line.at(first)), to_floats(line.slope)});
+  const PixelLine<float> level(ChannelLine<float>{to_floats(line.at(first)), to_floats(line.slope)});
   for (int k = 0; k < TileSums::kBlock; k += PixelsOf<float>::kCount) {
     const std::size_t at = TileSums::kPixel * static_cast<std::size_t>(first + k);
     PixelsOf<float> value = level.at(k);
@@ -45,8 +45,8 @@ HWY_INLINE void draw_block(TileSums& tile, int row, int block, QuadLine<double>&
   }
   if constexpr (kTouched) {
     double* const change = tile.change_after(row, block);
-    line = line + QuadLine<double>::load(change);
-    QuadLine<double>::zero().store(change);
+    line = line + ChannelLine<double>::load(change);
+    ChannelLine<double>::zero().store(change);
   }
 }
 
@@ -55,7 +55,7 @@ HWY_INLINE void draw_row(TileSums& tile, int row, const TileCanvas& canvas) {
   const auto at_row = static_cast<std::size_t>(row);
   const std::uint64_t touched = std::exchange(tile.touched[at_row], 0), lit = std::exchange(tile.lit[at_row], 0);
   double* const carried = tile.carried[at_row].data();
-  QuadLine<double> line = QuadLine<double>::load(carried);
+  ChannelLine<double> line = ChannelLine<double>::load(carried);
 
   // A buffer outside the frame, whose memory is then written as a whole.
   HWY_ALIGN float pixels[TileSums::kPixel * TileGrid::kWidth];

@@ -21,9 +21,9 @@
 
 #include "render/adaptive/tiles/pixels-inl.h"
 #include "render/adaptive/tiles/tile_sums.h"
+#include "render/polygons/packed_irradiance.h"
 #include "render/polygons/pattern_atlas.h"
 #include "render/polygons/polygon_list.h"
-#include "render/polygons/short_light.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
@@ -72,7 +72,7 @@ class RowForm {
   // An upper bound of its change from the middle of a group to the ends, for all groups of the row.
   [[nodiscard]] float half_group(const PixelRow& row) const {
     const float far = std::max(std::abs(row.from_x), std::abs(row.from_x + static_cast<float>(row.count + kToMiddle)));
-    return kToMiddle * kRoom * (std::abs(slope_) + 2.0F * far * std::abs(form_.xx));
+    return kToMiddle * kRoundingMargin * (std::abs(slope_) + 2.0F * far * std::abs(form_.xx));
   }
 
   // The coefficients in vectors, which no store between two pixels can change.
@@ -89,7 +89,7 @@ class RowForm {
   [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> at(hn::Vec<FloatTag> x) const { return along().at(x); }
 
  private:
-  static constexpr float kRoom = 1.01F;  // for rounding
+  static constexpr float kRoundingMargin = 1.01F;  // for rounding
   PatternMap::Form form_;
   float level_ = 0, slope_ = 0;
 };
@@ -97,10 +97,10 @@ class RowForm {
 // Groups of eight pixels of a row, a bit for each group from the row's first pixel on. What groups see of a pattern is
 // tested for all of them together, so that the work for a pixel does not wait for a test.
 using Groups = std::uint64_t;
-constexpr int kGroup = CoverSums::kGroup;
+constexpr int kGroup = CoverageSums::kGroup;
 static_assert(kGroup == TileSums::kBlock);
 static_assert(TileGrid::kWidth <= 64 * kGroup && hn::MaxLanes(FloatTag()) <= kGroup);
-constexpr std::size_t kRowRoom = TileGrid::kWidth + kGroup;
+constexpr std::size_t kRowCapacity = TileGrid::kWidth + kGroup;
 
 [[nodiscard]] inline Groups first_groups(int count) {
   return count >= 64 ? ~Groups{0} : (Groups{1} << static_cast<unsigned>(count)) - 1;
@@ -123,50 +123,50 @@ HWY_INLINE Groups groups_that(const PixelRow& row, const Test& test) {
 }
 
 // Groups in which a stop pattern is dark, and groups in which it transmits all light; nothing is known of the others.
-struct SeenGroups {
+struct UniformGroups {
   Groups dark = 0, level = 0;
 };
 
 // Positions between entries of a table: the whole step, and the remaining fraction. NaN counts as 0.
-struct TablePlaces {
+struct TablePositions {
   hn::Vec<IntTag> whole;
-  hn::Vec<FloatTag> rest;
+  hn::Vec<FloatTag> fraction;
 };
 
-// Splits positions in a table whose last entry is at `most`. The whole step is found by adding a number so large that
-// no bits remain for fractions, since conversions would test for overflow. A position on an entry may count as one
+// Splits positions in a table whose last entry is at `largest`. The whole step is found by adding a number so large
+// that no bits remain for fractions, since conversions would test for overflow. A position on an entry may count as one
 // whole step after the entry before.
 class TableEnd {
  public:
-  explicit HWY_INLINE TableEnd(float most)
-      : most_(hn::Set(FloatTag(), most)), last_(hn::Set(FloatTag(), most - 1.0F)) {}
+  explicit HWY_INLINE TableEnd(float largest)
+      : largest_(hn::Set(FloatTag(), largest)), last_(hn::Set(FloatTag(), largest - 1.0F)) {}
 
   // The last step has an entry after it.
-  [[nodiscard]] HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place) const {
-    const auto all = within(place);
-    return places(all, hn::Min(below(all), last_));
+  [[nodiscard]] HWY_INLINE TablePositions positions(hn::Vec<FloatTag> position) const {
+    const auto all = within(position);
+    return positions(all, hn::Min(below(all), last_));
   }
   // The last step may be at the last entry.
-  [[nodiscard]] HWY_INLINE TablePlaces places_to_end(hn::Vec<FloatTag> place) const {
-    const auto all = within(place);
-    return places(all, below(all));
+  [[nodiscard]] HWY_INLINE TablePositions positions_to_end(hn::Vec<FloatTag> position) const {
+    const auto all = within(position);
+    return positions(all, below(all));
   }
 
  private:
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> within(hn::Vec<FloatTag> place) const {
-    return hn::Min(hn::IfThenElseZero(hn::Gt(place, hn::Zero(FloatTag())), place), most_);
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> within(hn::Vec<FloatTag> position) const {
+    return hn::Min(hn::IfThenElseZero(hn::Gt(position, hn::Zero(FloatTag())), position), largest_);
   }
-  static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> place) {
-    return hn::Sub(place, hn::Set(FloatTag(), 0.5F));  // rounds to the step below
+  static HWY_INLINE hn::Vec<FloatTag> below(hn::Vec<FloatTag> position) {
+    return hn::Sub(position, hn::Set(FloatTag(), 0.5F));  // rounds to the step below
   }
-  static HWY_INLINE TablePlaces places(hn::Vec<FloatTag> place, hn::Vec<FloatTag> step) {
+  static HWY_INLINE TablePositions positions(hn::Vec<FloatTag> position, hn::Vec<FloatTag> step) {
     const auto no_parts = hn::Set(FloatTag(), 12582912.0F);  // 1.5 * 2^23
     const auto rounded = hn::Add(step, no_parts);
     return {hn::Sub(hn::BitCast(IntTag(), rounded), hn::BitCast(IntTag(), no_parts)),
-            hn::Sub(place, hn::Sub(rounded, no_parts))};
+            hn::Sub(position, hn::Sub(rounded, no_parts))};
   }
 
-  hn::Vec<FloatTag> most_, last_;
+  hn::Vec<FloatTag> largest_, last_;
 };
 
 #if HWY_TARGET != HWY_SCALAR
@@ -211,27 +211,27 @@ struct HalfWords {
   }
 };
 
-// A table of ShortLight, as pairs of a sample and the one below it.
-class ShortTable {
+// A table of PackedIrradiance, as pairs of a sample and the one below it.
+class PackedTable {
  public:
   using Pair = TextureTable::Pair;
 
-  ShortTable(const Pair* pairs, const ShortLight& coding)
+  PackedTable(const Pair* pairs, const PackedIrradiance& coding)
       : pairs_(pairs), lowest_(hn::Set(IntTag(), coding.lowest())), none_(hn::Set(FloatTag(), coding.none())) {}
 
-  // Interpolates between four samples: those at `place`, by the fractions to the next ones and to those below.
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> among(const std::int32_t* place, hn::Vec<FloatTag> across,
+  // Interpolates between four samples: those at `position`, by the fractions to the next ones and to those below.
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> among(const std::int32_t* position, hn::Vec<FloatTag> across,
                                                    hn::Vec<FloatTag> down) const {
-    const HalfWords<std::int32_t> pairs(pairs_, place);
+    const HalfWords<std::int32_t> pairs(pairs_, position);
     const auto left = between(pairs.first, down), right = between(pairs.second, down);
     return hn::Sub(hn::MulAdd(across, hn::Sub(right, left), left), none_);
   }
-  HWY_INLINE void fetch(std::ptrdiff_t place) const { hwy::Prefetch(pairs_ + place); }
+  HWY_INLINE void fetch(std::ptrdiff_t position) const { hwy::Prefetch(pairs_ + position); }
 
  private:
   // Returns the light plus none_.
-  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> rest) const {
-    constexpr int kShift = ShortLight::kShift;
+  [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> between(hn::Vec<IntTag> pair, hn::Vec<FloatTag> fraction) const {
+    constexpr int kShift = PackedIrradiance::kShift;
     const FloatTag d;
     const IntTag di;
     const auto bits = hn::Set(di, 0xFFFF << kShift);
@@ -239,7 +239,7 @@ class ShortTable {
     const auto high = hn::BitCast(d, hn::Add(hn::And(hn::ShiftRight<16 - kShift>(pair), bits), lowest_));
     constexpr bool kLowFirst = std::endian::native == std::endian::little;
     const auto first = kLowFirst ? low : high, second = kLowFirst ? high : low;
-    return hn::MulAdd(rest, hn::Sub(second, first), first);
+    return hn::MulAdd(fraction, hn::Sub(second, first), first);
   }
 
   const Pair* pairs_;

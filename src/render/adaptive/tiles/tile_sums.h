@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What edges leave in a tile until a pass along its rows turns it into pixels.
+// The accumulators hold the changes that edges make in a tile, until a pass along its rows sums them into pixels.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace contrejour::inline internal::adaptive {
 // The coverage of one polygon as changes along the rows of a tile, in floats: a row ends with the polygon, so that
 // rounding errors do not spread. Edges left of the tile count as on its border. Rows are stored as wide as the polygon,
 // so that every polygon uses the same small memory, which stays in the nearest cache.
-struct CoverSums {
+struct CoverageSums {
   static constexpr int kGroup = 8;  // columns; whole groups are read
   struct Columns {  // none if last < first
     int first, last;
@@ -56,19 +56,19 @@ struct CoverSums {
     constexpr int kBeyond = 2;  // number of columns after its own to which an edge adds
     first_ = first / kGroup * kGroup;
     pitch_ = (last + kBeyond - first_) / kGroup * kGroup + 2 * kGroup;
-    if (room_ == nullptr) room_ = std::make_unique<Room>();
+    if (storage_ == nullptr) storage_ = std::make_unique<Storage>();
   }
   [[nodiscard]] float* at(int row, int column) {
-    return room_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
+    return storage_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
   [[nodiscard]] Changed& changed_by(double sign) { return sign > 0.0 ? begun : ended; }
 
  private:
-  struct alignas(64) Room {  // with a vector beyond
+  struct alignas(64) Storage {  // with a vector beyond
     std::array<float, static_cast<std::size_t>(TileGrid::kWidth + 3 * kGroup) * TileGrid::kHeight + kGroup> sums{};
   };
   int first_ = 0, pitch_ = 0;
-  std::unique_ptr<Room> room_;  // made with the first polygon
+  std::unique_ptr<Storage> storage_;  // made with the first polygon
 };
 
 // The position of a tile in the frame, and its sums. An edge changes single pixels in the blocks of columns in which it
@@ -76,27 +76,27 @@ struct CoverSums {
 // left to right; each receives from the one before what edges to its left have changed.
 struct TileSums {
   static constexpr int kBlock = 8;  // columns
-  static constexpr int kMostBlocks = TileGrid::kWidth / kBlock;
+  static constexpr int kMaxBlocks = TileGrid::kWidth / kBlock;
   static constexpr std::size_t kPixel = 3;  // values
   static constexpr std::size_t kLine = 8;  // four each: level at the tile's first column, slope along x
-  static constexpr float kUnseenCover = 1e-6F;  // of a pixel: rounding next to a polygon
-  static_assert(TileGrid::kWidth % kBlock == 0 && kMostBlocks <= 64);
+  static constexpr float kNegligibleCoverage = 1e-6F;  // of a pixel: rounding next to a polygon
+  static_assert(TileGrid::kWidth % kBlock == 0 && kMaxBlocks <= 64);
 
   int x0 = 0, y0 = 0, width = 0, height = 0;
   using Blocks = std::array<std::uint64_t, TileGrid::kHeight>;  // by row, a bit for each block of columns
   Blocks touched{};  // by edges: these have pixels of their own, and the line may change after them
   Blocks lit{};  // by pixels behind stop patterns
   std::array<std::array<double, kLine>, TileGrid::kHeight> carried{};  // by row: the line left of the first column
-  CoverSums cover;
+  CoverageSums cover;
 
   [[nodiscard]] bool is_carried() const { return x0 > 0; }  // whether it receives what edges to its left changed
   [[nodiscard]] int blocks() const { return (width + kBlock - 1) / kBlock; }
   // The change of the line after a block.
   [[nodiscard]] double* change_after(int row, int block) {
-    return room_->changes.data() + kLine * static_cast<std::size_t>(row * kMostBlocks + block);
+    return storage_->changes.data() + kLine * static_cast<std::size_t>(row * kMaxBlocks + block);
   }
   [[nodiscard]] double* pixels_at(int row) {
-    return room_->pixels.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+    return storage_->pixels.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
   }
   // Marks the blocks from first to last, including last.
   void touch(int row, int first, int last) {
@@ -120,14 +120,14 @@ struct TileSums {
   // The pitch is no power of two, so that rows do not compete for cache lines. Groups that begin within a block end
   // beyond the last one.
   static constexpr std::size_t kPixelPitch = TileGrid::kWidth + 24;
-  struct alignas(64) Room {
-    std::array<double, kLine * kMostBlocks * TileGrid::kHeight> changes{};
+  struct alignas(64) Storage {
+    std::array<double, kLine * kMaxBlocks * TileGrid::kHeight> changes{};
     std::array<double, kPixel * kPixelPitch * TileGrid::kHeight + 1> pixels{};  // with one unused
   };
   struct alignas(64) Light {
     std::array<float, kPixel * kPixelPitch * TileGrid::kHeight> values{};
   };
-  std::unique_ptr<Room> room_ = std::make_unique<Room>();
+  std::unique_ptr<Storage> storage_ = std::make_unique<Storage>();
   std::unique_ptr<Light> light_;  // made with the first polygon behind a stop pattern
 };
 

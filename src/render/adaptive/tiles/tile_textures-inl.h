@@ -15,20 +15,20 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "render/adaptive/tiles/quad-inl.h"
+#include "render/adaptive/tiles/channel_vector-inl.h"
 #include "render/adaptive/tiles/tile_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
-static_assert(TextureTable::kStride == kQuad);
+static_assert(TextureTable::kStride == kVectorChannels);
 
 // Positions in a pattern's samples along rows. No pixels are sorted out as dark, since bounding polygons have clipped
 // the dark parts.
-class PatternPlaces {
+class PatternPositions {
  public:
-  PatternPlaces(const TextureTable::Level& level, double extent, const PatternMap& map)
-      : most_(static_cast<float>(level.side + 1)) {
+  PatternPositions(const TextureTable::Level& level, double extent, const PatternMap& map)
+      : largest_(static_cast<float>(level.side + 1)) {
     const double per_radius = 0.5 * level.side / extent;
     const double centre = 0.5 * level.side + 0.5;  // with a border of one sample, the middle of the first one is at 1
     column_ = RowForm(map.form({per_radius, 0.0}, centre));
@@ -42,10 +42,10 @@ class PatternPlaces {
   // The coefficients along a row in vectors.
   class Along {
    public:
-    HWY_INLINE Along(const PatternPlaces& all, const PixelRow& row)
-        : column_(all.column_.along()), line_(all.line_.along()), end_(all.most_), row_(row) {}
-    [[nodiscard]] HWY_INLINE TablePlaces across(int k) const { return end_.places(column_.at(row_.x(k))); }
-    [[nodiscard]] HWY_INLINE TablePlaces down(int k) const { return end_.places(line_.at(row_.x(k))); }
+    HWY_INLINE Along(const PatternPositions& all, const PixelRow& row)
+        : column_(all.column_.along()), line_(all.line_.along()), end_(all.largest_), row_(row) {}
+    [[nodiscard]] HWY_INLINE TablePositions across(int k) const { return end_.positions(column_.at(row_.x(k))); }
+    [[nodiscard]] HWY_INLINE TablePositions down(int k) const { return end_.positions(line_.at(row_.x(k))); }
 
    private:
     RowForm::Along column_, line_;
@@ -54,40 +54,42 @@ class PatternPlaces {
   };
 
  private:
-  float most_;
+  float largest_;
   RowForm column_, line_;
 };
 
 // All channels, with each wavelength's part by its own weights.
 class ColourTexture {
  public:
-  static constexpr bool kGrey = false;
+  static constexpr bool kMonochrome = false;
   ColourTexture(const TextureTable& table, const Pattern& pattern, const WavelengthWeights& weights)
       : samples_(table.samples.data() + table.levels[pattern.level].first),
-        places_(table.levels[pattern.level], table.extent, pattern.map),
+        positions_(table.levels[pattern.level], table.extent, pattern.map),
         pitch_(kStride * static_cast<std::size_t>(table.levels[pattern.level].pitch())), weights_(weights) {}
 
-  HWY_INLINE void set_row(const PixelRow& row) { places_.set_row(row); }
-  HWY_INLINE const ColourTexture& look(const PixelRow& row, Groups /*wanted*/) {
-    const PatternPlaces::Along places(places_, row);
+  HWY_INLINE void set_row(const PixelRow& row) { positions_.set_row(row); }
+  HWY_INLINE const ColourTexture& lookup(const PixelRow& row, Groups /*wanted*/) {
+    const PatternPositions::Along positions(positions_, row);
     for (int k = 0; k < row.count; k += static_cast<int>(hn::MaxLanes(FloatTag()))) {
-      const TablePlaces across = places.across(k), down = places.down(k);
+      const TablePositions across = positions.across(k), down = positions.down(k);
       hn::Store(across.whole, IntTag(), column_ + k);
-      hn::Store(across.rest, FloatTag(), right_ + k);
+      hn::Store(across.fraction, FloatTag(), right_ + k);
       hn::Store(down.whole, IntTag(), line_ + k);
-      hn::Store(down.rest, FloatTag(), below_ + k);
+      hn::Store(down.fraction, FloatTag(), below_ + k);
     }
     return *this;
   }
   [[nodiscard]] HWY_INLINE const ColourTexture& vector(int /*k*/) const { return *this; }
-  [[nodiscard]] HWY_INLINE Quad passed(int j) const {
+  [[nodiscard]] HWY_INLINE ChannelVector transmitted(int j) const {
     const float* const above =
         samples_ + static_cast<std::size_t>(line_[j]) * pitch_ + kStride * static_cast<std::size_t>(column_[j]);
     const float* const below = above + pitch_;
-    const Quad right = Quad::all(right_[j]);
-    const Quad value = mix(mix(Quad::load(above), Quad::load(above + kStride), right),
-                           mix(Quad::load(below), Quad::load(below + kStride), right), Quad::all(below_[j]));
-    const auto of = [&](std::size_t part) { return Quad::load(weights_[part].data()); };
+    const ChannelVector right = ChannelVector::all(right_[j]);
+    const ChannelVector value =
+        interpolate(interpolate(ChannelVector::load(above), ChannelVector::load(above + kStride), right),
+                    interpolate(ChannelVector::load(below), ChannelVector::load(below + kStride), right),
+                    ChannelVector::all(below_[j]));
+    const auto of = [&](std::size_t part) { return ChannelVector::load(weights_[part].data()); };
     return multiply_add(value.broadcast<0>(), of(0),
                         multiply_add(value.broadcast<1>(), of(1), value.broadcast<2>() * of(2)));
   }
@@ -95,70 +97,71 @@ class ColourTexture {
  private:
   static constexpr std::size_t kStride = TextureTable::kStride;
   const float* samples_;
-  PatternPlaces places_;
+  PatternPositions positions_;
   std::size_t pitch_;
   const WavelengthWeights& weights_;
-  HWY_ALIGN std::int32_t column_[kRowRoom], line_[kRowRoom];
-  HWY_ALIGN float right_[kRowRoom], below_[kRowRoom];
+  HWY_ALIGN std::int32_t column_[kRowCapacity], line_[kRowCapacity];
+  HWY_ALIGN float right_[kRowCapacity], below_[kRowCapacity];
 };
 
 // A row's positions in a table: the first of four samples, and the fractions of the distance to the others.
-struct RowPlaces {
-  HWY_ALIGN std::int32_t place[kRowRoom];
-  HWY_ALIGN float across[kRowRoom], down[kRowRoom];
+struct RowPositions {
+  HWY_ALIGN std::int32_t position[kRowCapacity];
+  HWY_ALIGN float across[kRowCapacity], down[kRowCapacity];
 };
 
 // The pattern of a single wavelength, with one value for all channels. The positions of all of a row's pixels are
 // computed while the row before is looked up, and their samples are prefetched: patterns are large, and most samples
 // are needed only once.
-class GreyTexture {
+class MonochromeTexture {
  public:
-  static constexpr bool kGrey = true;
-  GreyTexture(const TextureTable& table, const Pattern& pattern)
-      : GreyTexture(table, table.levels[pattern.level], pattern.map) {}
+  static constexpr bool kMonochrome = true;
+  MonochromeTexture(const TextureTable& table, const Pattern& pattern)
+      : MonochromeTexture(table, table.levels[pattern.level], pattern.map) {}
 
   // Prepares the row that comes next.
   HWY_INLINE void expect_row(const PixelRow& row) {
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
     constexpr int kEvery = 2;  // pixels: a cache line holds several samples
-    RowPlaces& to = rows_[1 - now_];
-    places_.set_row(row);
-    const PatternPlaces::Along places(places_, row);
+    RowPositions& to = rows_[1 - now_];
+    positions_.set_row(row);
+    const PatternPositions::Along positions(positions_, row);
     const auto pitch = hn::Set(IntTag(), pitch_);
     for (int k = 0; k < row.count; k += kLanes) {
-      const TablePlaces across = places.across(k), down = places.down(k);
-      hn::Store(hn::Add(hn::Mul(down.whole, pitch), across.whole), IntTag(), to.place + k);
-      hn::Store(across.rest, FloatTag(), to.across + k);
-      hn::Store(down.rest, FloatTag(), to.down + k);
+      const TablePositions across = positions.across(k), down = positions.down(k);
+      hn::Store(hn::Add(hn::Mul(down.whole, pitch), across.whole), IntTag(), to.position + k);
+      hn::Store(across.fraction, FloatTag(), to.across + k);
+      hn::Store(down.fraction, FloatTag(), to.down + k);
     }
-    for (int k = row.y % kEvery; k < row.count; k += kEvery) table_.fetch(to.place[k]);
+    for (int k = row.y % kEvery; k < row.count; k += kEvery) table_.fetch(to.position[k]);
   }
   HWY_INLINE void set_row(const PixelRow& /*expected*/) { now_ = 1 - now_; }
 
   class Row {
    public:
-    explicit HWY_INLINE Row(const GreyTexture& all) : places_(all.rows_[all.now_]), table_(all.table_) {}
-    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> passed(int k) const {
+    explicit HWY_INLINE Row(const MonochromeTexture& all) : positions_(all.rows_[all.now_]), table_(all.table_) {}
+    [[nodiscard]] HWY_INLINE hn::Vec<FloatTag> transmitted(int k) const {
       const FloatTag d;
-      return table_.among(places_.place + k, hn::Load(d, places_.across + k), hn::Load(d, places_.down + k));
+      return table_.among(positions_.position + k, hn::Load(d, positions_.across + k),
+                          hn::Load(d, positions_.down + k));
     }
 
    private:
-    const RowPlaces& places_;
-    ShortTable table_;
+    const RowPositions& positions_;
+    PackedTable table_;
   };
-  [[nodiscard]] HWY_INLINE Row look(const PixelRow& /*row*/, Groups /*wanted*/) const { return Row(*this); }
+  [[nodiscard]] HWY_INLINE Row lookup(const PixelRow& /*row*/, Groups /*wanted*/) const { return Row(*this); }
 
  private:
-  GreyTexture(const TextureTable& table, const TextureTable::Level& level, const PatternMap& map)
-      : places_(level, table.extent, map),
-        table_(table.pairs.data() + level.first, ShortLight::of_lowest(level.lowest)), pitch_(level.pitch()) {}
+  MonochromeTexture(const TextureTable& table, const TextureTable::Level& level, const PatternMap& map)
+      : positions_(level, table.extent, map),
+        table_(table.pairs.data() + level.first, PackedIrradiance::of_lowest(level.lowest)), pitch_(level.pitch()) {}
 
-  PatternPlaces places_;
-  ShortTable table_;
+  PatternPositions positions_;
+  PackedTable table_;
   std::int32_t pitch_;
   int now_ = 0;
-  RowPlaces rows_[2];
+  RowPositions rows_[2];
 };
 
 }  // namespace contrejour::inline internal::adaptive::HWY_NAMESPACE

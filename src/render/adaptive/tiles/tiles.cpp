@@ -26,21 +26,23 @@ namespace contrejour::inline internal::adaptive::HWY_NAMESPACE {
 
 void add_polygon(TileSums& tile, const PolygonList& list, const Polygon& polygon) {
   const auto corners = list.corners_of(polygon);
-  const RowShade shade = row_shade(list.shade_of(polygon), tile);
+  const RowIrradiance irradiance = row_irradiance(list.irradiance_of(polygon), tile);
   if (corners.size() == 1) {
     const auto column = static_cast<int>(std::floor(static_cast<double>(corners[0].x) - tile.x0));
     const auto row = static_cast<int>(std::floor(static_cast<double>(corners[0].y) - tile.y0));
     if (column < 0 || row < 0 || column >= tile.width || row >= tile.height) return;
     double* const pixel = tile.pixels_at(row) + TileSums::kPixel * static_cast<std::size_t>(column);
-    (DoubleQuad::load(pixel) + shade.at(row).at(column)).store(pixel);
+    (DoubleChannelVector::load(pixel) + irradiance.at(row).at(column)).store(pixel);
     tile.touch(row, column / TileSums::kBlock, column / TileSums::kBlock);
     return;
   }
   for_each_edge(tile, list, polygon, [&](Vec2 a, Vec2 b, std::size_t corner, double sign) {
-    const std::uint32_t partner = list.partner_of(polygon.first + corner);
-    if (partner == PolygonList::kNotDrawn) return;
-    const bool alone = partner == PolygonList::kAlone;
-    add_clipped(tile, alone ? shade : shade - row_shade(list.shade_of(list.polygons[partner]), tile), a, b, sign);
+    const std::uint32_t neighbour = list.neighbour_of(polygon.first + corner);
+    if (neighbour == PolygonList::kSkipped) return;
+    const bool alone = neighbour == PolygonList::kUnshared;
+    add_clipped(tile,
+                alone ? irradiance : irradiance - row_irradiance(list.irradiance_of(list.polygons[neighbour]), tile), a,
+                b, sign);
   });
 }
 
@@ -51,7 +53,7 @@ HWY_INLINE void fetch_ahead(const TiledPolygons& p, std::uint32_t k, std::uint32
   if (k + kRest >= end) return;
   const Polygon& polygon = p.list.polygons[p.tiles.index[k + kRest]];
   hwy::Prefetch(p.list.corners.data() + polygon.first);
-  hwy::Prefetch(&p.list.shade_of(polygon));
+  hwy::Prefetch(&p.list.irradiance_of(polygon));
   if (polygon.pattern != 0) hwy::Prefetch(&p.list.patterns[polygon.pattern - 1]);
 }
 

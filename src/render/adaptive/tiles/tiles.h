@@ -50,7 +50,7 @@ struct TiledPolygons {
   TileLists tiles;
 };
 
-// What all tiles of a batch are drawn from.
+// The input from which all tiles of a batch are drawn.
 struct TileInput {
   std::span<const TiledPolygons> lists;
   std::span<const TextureTable* const> textures;  // by Pattern::table

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/area_lights/blur_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+namespace contrejour::inline internal::area {
+namespace {
+
+constexpr double kSharpFraction = 0.1;  // of the error that a separate image may save: error of leaving a blur out
+constexpr double kPicture_px = 60000.0;  // pixels whose cost equals the constant cost of an image
+constexpr double kPixelsCost = 0.3;  // cost of an image in the frame's pixels, relative to the allowed error
+
+struct Group {
+  bool is_sharp = false;
+  int level = 0;
+  LinearMap seed = kZeroMap;  // in pixels of the frame
+  LinearMap px = kZeroMap;  // weighted sum
+  double weight = 0.0;
+  std::vector<std::size_t> ghosts;
+
+  void add(std::size_t index, const PieceGhost& one) {
+    const double w = std::max(one.blur->level, 1e-30);
+    px = px + one.blur->px * w;
+    weight += w;
+    ghosts.push_back(index);
+  }
+};
+
+// The cost of an image at this level over that of an image at the frame's own resolution.
+double cost_of(int level, const Frame& frame) {
+  const double px = static_cast<double>(frame.width) * frame.height;
+  return (std::exp2(-2 * level) * px + kPicture_px) / (px + kPicture_px);
+}
+
+class Grouping {
+ public:
+  Grouping(const LightPiece& piece, const Frame& frame, double peak, double allowed_squares)
+      : piece_(piece), frame_(frame), peak_(peak), allowed_(allowed_squares) {}
+
+  void add(std::size_t index, const PieceGhost& one) {
+    const double own = map_error(*one.blur, one.blur->px, piece_, peak_);
+    Group* group = group_for(one, own);
+    if (group == nullptr) {
+      const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
+      group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, kZeroMap, 0.0, {}});
+    } else
+      squares += cheapest_;
+    group->add(index, one);
+  }
+
+  std::vector<Group> groups;
+  double squares = 0.0;
+
+ private:
+  // The group in which a ghost costs least: in error, and in work, which grows with the number of a level's pixels.
+  // Null where every group makes more error than a separate image may save.
+  Group* group_for(const PieceGhost& one, double own) {
+    Group* best = nullptr;
+    double cheapest = std::numeric_limits<double>::infinity();
+    const double limit = allowed_ * cost_of(one.level, frame_);
+    for (Group& group : groups) {
+      const double coarse = group.level > one.level ? level_error(one.blur->over(peak_), group.level) : 0.0;
+      if (!(coarse <= limit)) continue;
+      const LinearMap& map = group.is_sharp ? kZeroMap : group.seed;
+      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own, 0.0) + coarse;
+      const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * group.level);
+      if (!(error <= limit && cost < cheapest)) continue;
+      cheapest = cost;
+      cheapest_ = error;
+      best = &group;
+    }
+    return best;
+  }
+
+  const LightPiece& piece_;
+  const Frame& frame_;
+  double peak_, allowed_;
+  double cheapest_ = 0.0;
+};
+
+}  // namespace
+
+BlurClusters blur_clusters(std::span<const PieceGhost> ghosts, const LightPiece& piece, const Frame& frame, double peak,
+                           double allowed_squares) {
+  std::vector<std::size_t> by_level(ghosts.size());
+  std::iota(by_level.begin(), by_level.end(), std::size_t{0});
+  std::ranges::stable_sort(by_level, std::greater(), [&](std::size_t k) { return ghosts[k].blur->level; });
+  Grouping grouping(piece, frame, peak, allowed_squares);
+  for (const std::size_t k : by_level) grouping.add(k, ghosts[k]);
+
+  BlurClusters out;
+  out.squares = grouping.squares;
+  for (Group& group : grouping.groups) {
+    BlurCluster made;
+    made.is_sharp = group.is_sharp;
+    made.level = group.level;
+    made.px_from_tangents = group.px * (std::exp2(-made.level) / group.weight);
+    std::sort(group.ghosts.begin(), group.ghosts.end());
+    made.ghosts = std::move(group.ghosts);
+    out.clusters.push_back(std::move(made));
+  }
+  return out;
+}
+
+}  // namespace contrejour::inline internal::area

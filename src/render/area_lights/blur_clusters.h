@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Groups the ghosts of a piece of a light that are blurred alike: each group is drawn once, with as few pixels as the
+// blur allows.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contrejour/frame.h"
+#include "render/area_lights/ghost_blur.h"
+
+namespace contrejour::inline internal::area {
+
+// A ghost of a piece of a light, with the coarsest level of the image pyramid in which it may be drawn (layers.h).
+struct PieceGhost {
+  const GhostBlur* blur = nullptr;
+  int level = 0;
+};
+
+struct BlurCluster {
+  bool is_sharp = false;  // its blur is not visible: it is drawn without
+  int level = 0;          // of the image pyramid
+  LinearMap px_from_tangents;  // in pixels of that level
+  std::vector<std::size_t> ghosts;  // indices of the given ghosts, ascending
+};
+
+struct BlurClusters {
+  std::vector<BlurCluster> clusters;
+  double squares = 0.0;  // squared error of sharing, summed over the frame, in squares of the peak
+};
+
+// allowed_squares: the error of a ghost that may save an image as costly as one at the frame's resolution.
+[[nodiscard]] BlurClusters blur_clusters(std::span<const PieceGhost> ghosts, const LightPiece& piece,
+                                         const Frame& frame, double peak, double allowed_squares);
+
+}  // namespace contrejour::inline internal::area

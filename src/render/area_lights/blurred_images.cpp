@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/area_lights/blurred_images.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <utility>
+
+namespace contrejour::inline internal::area {
+namespace {
+
+constexpr double kLevelFraction = 0.1;    // of the frame's squared error: for coarse pixels,
+constexpr double kMisfitFraction = 0.5;   // and for ghosts that are drawn with another ghost's blur
+constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first trial
+constexpr int kTrials = 4;
+
+// Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights.
+struct Job {
+  std::shared_ptr<const LightPiece> piece;
+  std::vector<const PlannedLight*> planned;  // one a pair
+  std::vector<std::size_t> ghost;            // one a pair
+  std::vector<PieceGhost> pairs;
+  bool is_point = false;
+};
+
+class Jobs {
+ public:
+  explicit Jobs(const SurveyedFrame& frame, double allowed_squares) {
+    std::vector<BlurredGhost> wholes;
+    for (const SurveyedLight& light : frame.lights)
+      for (const GhostBlur& whole : light.wholes) wholes.push_back(whole.over(frame.peak));
+    const std::vector<int> levels = levels_of(wholes, allowed_squares);
+    soft_.piece = std::make_shared<const LightPiece>(soft_piece());
+    std::size_t next = 0;
+    for (const SurveyedLight& light : frame.lights) {
+      add(light, {levels.data() + next, light.wholes.size()});
+      next += light.wholes.size();
+    }
+    if (!soft_.pairs.empty()) all.push_back(std::move(soft_));
+  }
+
+  std::vector<Job> all;
+
+ private:
+  void add(const SurveyedLight& light, std::span<const int> levels) {
+    const bool is_whole = light.parts.across == 1;
+    Job own;
+    Job& job = is_whole ? own : soft_;
+    if (is_whole) job.piece = std::make_shared<const LightPiece>(light.parts.pieces.front());
+    job.is_point = job.piece->samples.empty();
+    for (std::size_t p = 0; p < light.parts.pieces.size(); ++p) {
+      for (std::size_t g = 0; g < light.ghosts.size(); ++g) {
+        const GhostBlur* blur = &light.blurs[p][g];
+        if (!is_whole) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
+        job.planned.push_back(&light.parts.planned[p]);
+        job.ghost.push_back(light.ghosts[g]);
+        job.pairs.push_back({blur, levels[g]});
+      }
+    }
+    if (is_whole) all.push_back(std::move(own));
+  }
+
+  Job soft_;
+  std::deque<GhostBlur> softened_;
+};
+
+// Finds as few images as the allowed error permits, by raising or lowering the error that an image may save.
+std::vector<BlurClusters> clusters_of(const std::vector<Job>& jobs, const Frame& frame, double peak,
+                                      double allowed_squares) {
+  std::vector<BlurClusters> all;
+  double each = kFirstFraction * allowed_squares;
+  for (int trial = 1;; ++trial) {
+    all.clear();
+    double squares = 0.0;
+    for (const Job& job : jobs) {
+      all.push_back(job.is_point ? BlurClusters{} : blur_clusters(job.pairs, *job.piece, frame, peak, each));
+      squares += all.back().squares;
+    }
+    const bool is_allowed = squares <= allowed_squares;
+    if (is_allowed && (trial >= kTrials || squares > 0.3 * allowed_squares)) return all;
+    if (trial >= 2 * kTrials) return all;
+    each *= is_allowed ? 3.0 : 0.3;
+  }
+}
+
+// Adds a pair to an image. A light that successive pairs share is listed once.
+void add_pair(BlurredImage& image, const Job& job, std::size_t k, const PlannedLight*& last) {
+  if (job.planned[k] != last) image.lights.push_back(*job.planned[k]);
+  last = job.planned[k];
+  image.pairs.push_back({job.ghost[k], image.lights.size() - 1});
+}
+
+}  // namespace
+
+std::vector<BlurredImage> blurred_images(const SurveyedFrame& frame, const FrameSettings& settings) {
+  const double squares = settings.area_error * settings.area_error * settings.frame.width * settings.frame.height;
+  const Jobs jobs(frame, kLevelFraction * squares);
+  const std::vector<BlurClusters> clusters =
+      clusters_of(jobs.all, settings.frame, frame.peak, kMisfitFraction * squares);
+  std::vector<BlurredImage> images;
+  BlurredImage sharp;
+  for (std::size_t j = 0; j < jobs.all.size(); ++j) {
+    const Job& job = jobs.all[j];
+    const PlannedLight* last = nullptr;
+    for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) add_pair(sharp, job, k, last);
+    for (const BlurCluster& made : clusters[j].clusters) {
+      BlurredImage image{{}, {}, job.piece, made.level, made.px_from_tangents};
+      last = nullptr;
+      for (const std::size_t k : made.ghosts) add_pair(made.is_sharp ? sharp : image, job, k, last);
+      if (!made.is_sharp) images.push_back(std::move(image));
+    }
+  }
+  if (!sharp.pairs.empty()) images.push_back(std::move(sharp));
+  const auto rank = [](const BlurredImage& d) { return d.piece == nullptr ? 1 : 2 * d.level; };
+  std::stable_sort(images.begin(), images.end(),
+                   [&](const BlurredImage& a, const BlurredImage& b) { return rank(a) > rank(b); });
+  return images;
+}
+
+}  // namespace contrejour::inline internal::area

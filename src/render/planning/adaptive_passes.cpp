@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/planning/adaptive_passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tasks.h"
+#include "contrejour/expert/trace.h"
+#include "render/pupils/pupil_search.h"
+#include "render/radiometry/wavelength_samples.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+constexpr std::size_t kMinBands = 3;      // at least this many bands
+constexpr double kMaxSpread_px = 1.5;       // the largest distance between the images at the two ends of a band
+constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
+constexpr int kSide = 9;                // rays a side
+constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays that count
+
+// A ghost's transmittance in every pass and the displacement of its image over the spectrum, estimated from a few rays.
+struct GhostSpectrum {
+  WavelengthSamples samples;
+  std::vector<double> carried;  // the mean transmittance, one for each pass
+  double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
+};
+
+double mean_transmission(const RayGrid& grid) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < grid.blocked.size(); ++k)
+    if (grid.blocked[k] <= kNearlyThrough) sum += grid.transmission[k], ++count;
+  return count > 0 ? sum / count : 0.0;
+}
+
+double shift_mm(const RayGrid& a, const RayGrid& b) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < a.blocked.size(); ++k) {
+    if (!(a.blocked[k] <= kNearlyThrough && b.blocked[k] <= kNearlyThrough)) continue;
+    const Vec2 shift{a.sensor_x_mm[k] - b.sensor_x_mm[k], a.sensor_y_mm[k] - b.sensor_y_mm[k]};
+    largest = std::max(largest, length(shift));
+  }
+  return largest;
+}
+
+// Traces the rays of one ghost of one light.
+class GhostProbe {
+ public:
+  GhostProbe(const FramePlan& plan, const LensState& lens, const Ghost& ghost, const PlannedLight& light)
+      : plan_(plan), lens_(lens), ghost_(ghost), light_(light), window_(entrance_window(lens, light.source)) {}
+
+  // nullopt where nothing gets through.
+  [[nodiscard]] std::optional<GhostSpectrum> spectrum() const {
+    const auto pupil = this->pupil();
+    if (!pupil) return std::nullopt;
+    std::vector<double> lambda_nm;
+    for (const PlannedPass& pass : light_.passes) lambda_nm.push_back(pass.lambda_nm);
+    GhostSpectrum out{WavelengthSamples(lambda_nm, kRayWavelengths), std::vector<double>(lambda_nm.size(), 0.0)};
+    std::vector<RayGrid> grids(out.samples.size());
+    for (std::size_t k = 0; k < grids.size(); ++k) {
+      const double at_nm = lambda_nm[out.samples[k]];
+      grids[k].trace(ghost_path(lens_, ghost_, at_nm), plan_.tables.at(at_nm), iris_, light_.source, window_.z_mm,
+                     *pupil, kSide, PacketPrecision::Double);
+    }
+    for (std::size_t pass = 0; pass < lambda_nm.size(); ++pass) {
+      const std::vector<double> factors = out.samples.factors(grids.size(), pass);
+      for (std::size_t k = 0; k < grids.size(); ++k) out.carried[pass] += factors[k] * mean_transmission(grids[k]);
+      out.carried[pass] = std::max(out.carried[pass], 0.0);
+    }
+    if (grids.size() > 1) out.shift_mm = shift_mm(grids[0], grids[1]);
+    return out;
+  }
+
+ private:
+  // The pupil at the middle wavelength or, if that is empty, at one of the ends of the spectrum.
+  [[nodiscard]] std::optional<Rectangle> pupil() const {
+    for (const PlannedPass* pass :
+         {&light_.passes[light_.passes.size() / 2], &light_.passes.front(), &light_.passes.back()}) {
+      const pupils::PupilRays rays(ghost_path(lens_, ghost_, pass->lambda_nm), plan_.tables.at(pass->lambda_nm),
+                                   light_.source, iris_, window_);
+      const pupils::Pupil found = find_pupil(rays, {});
+      if (!found.is_empty()) return found.box();
+    }
+    return std::nullopt;
+  }
+
+  const FramePlan& plan_;
+  const LensState& lens_;
+  const Ghost& ghost_;
+  const PlannedLight& light_;
+  EntranceWindow window_;
+  IrisShape iris_{Iris{}};
+};
+
+// One pass, at the middle one, for the passes from `first` to the one before `last`.
+PlannedPass joined(std::span<const PlannedPass> passes, std::span<const double> carried, std::size_t first,
+                   std::size_t last) {
+  std::size_t at = (first + last) / 2;
+  for (std::size_t k = first; k < last; ++k)
+    if (!(carried[at] > 0.0) && carried[k] > 0.0) at = k;
+  PlannedPass out = passes[at];
+  double squares = 0.0;
+  out.gain = {};
+  for (std::size_t k = first; k < last; ++k) {
+    const double times = carried[at] > 0.0 ? carried[k] / carried[at] : 1.0;
+    for (std::size_t c = 0; c < 3; ++c) out.gain[c] += times * passes[k].gain[c];
+    squares += std::pow(passes[k].lambda_nm - out.lambda_nm, 2.0) + passes[k].spread_nm * passes[k].spread_nm;
+  }
+  out.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
+  return out;
+}
+
+// Appends the bands that the passes from `first` to the one before `last` are joined to.
+void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, double max_spread_mm,
+               std::size_t first, std::size_t last, std::vector<PlannedPass>& out) {
+  const auto& samples = spectrum.samples;
+  const double wide_mm = 0.5 * spectrum.shift_mm * std::abs(samples.position(last - 1) - samples.position(first));
+  if (last - first == 1 || wide_mm <= max_spread_mm)
+    return out.push_back(joined(passes, spectrum.carried, first, last));
+  const std::size_t middle = (first + last) / 2;
+  add_bands(passes, spectrum, max_spread_mm, first, middle, out);
+  add_bands(passes, spectrum, max_spread_mm, middle, last, out);
+}
+
+std::vector<PlannedPass> passes_for(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum,
+                                    double pixel_pitch_mm) {
+  std::vector<PlannedPass> out;
+  const std::size_t thirds = std::min(kMinBands, passes.size());
+  for (std::size_t k = 0; k < thirds; ++k)
+    add_bands(passes, spectrum, kMaxSpread_px * pixel_pitch_mm, k * passes.size() / thirds,
+              (k + 1) * passes.size() / thirds, out);
+  return out;
+}
+
+}  // namespace
+
+std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensState& lens, const Frame& frame,
+                                              const Context& context) {
+  FramePlan out = plan;
+  if (!plan.adapts_passes) return out;
+  std::vector<GhostOfLight> pairs;
+  for_each_pair(plan, [&](std::size_t g, std::size_t k) { pairs.push_back({g, k}); });
+  out.passes.resize(pairs.size());
+  Context quiet = context;
+  quiet.progress = {};
+  const bool done = parallel_for(pairs.size(), quiet, [&](std::size_t k) {
+    const PlannedLight& light = plan.lights[pairs[k].light];
+    if (light.passes.empty()) return;
+    const auto spectrum = GhostProbe(plan, lens, plan.ghosts[pairs[k].ghost], light).spectrum();
+    if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, frame.pixel_pitch_mm);
+  });
+  return done ? std::optional(std::move(out)) : std::nullopt;
+}
+
+}  // namespace contrejour::inline internal
