@@ -68,6 +68,7 @@ TEST_CASE("measured flare: curves are even, odd or neither") {
 
 TEST_CASE("measured flare: a file reads back bit for bit") {
   MeasuredFlare flare = random_flare(7);
+  flare.half_field = Vec2{0.75, 0.5};
   flare.ghosts[2].width_in.parity = Parity::None;
   flare.ghosts[2].width_in.coefficients = {0.1, 1e-17, -3.0};
   const std::string text = write_flare(flare);
@@ -76,6 +77,7 @@ TEST_CASE("measured flare: a file reads back bit for bit") {
   CHECK(write_flare(*again) == text);
   CHECK(again->ghosts.size() == 7);
   CHECK(again->exposure->f_number == 1.4);
+  CHECK(again->half_field->x == 0.75);
 }
 
 TEST_CASE("measured flare: errors name file and line") {
@@ -90,6 +92,9 @@ TEST_CASE("measured flare: errors name file and line") {
   CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncenter = [3]\n").c_str()).find("a.toml:5:") == 0);
   CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncentre = [nan]\n").c_str()).find("a.toml:5:") == 0);
   CHECK(error((head + "ghosts = [1]\n").c_str()).find("a.toml:3:") == 0);
+  CHECK(error((head + "half_field = [1]\n").c_str()).find("a.toml:3:") == 0);
+  CHECK(error((head + "half_field = [1, 0]\n").c_str()).find("half_field") != std::string::npos);
+  CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncentre = [1e10]\n").c_str()).find("exceeds") != std::string::npos);
 }
 
 TEST_CASE("measured flare: pictures agree with a plain evaluation of every pixel") {

@@ -67,9 +67,12 @@ struct MeasuredFlare {
   double s_max = 0;  // measured for |s| up to this
   std::optional<CaptureExposure> exposure;
   std::vector<MeasuredGhost> ghosts;
+  // Half the photographs' field across and down, as tangents from the optical centre. Unknown: none.
+  std::optional<Vec2> half_field = {};
 };
 
-// Errors: InvalidArgument for values that are not finite, ranges that are empty or exceed s_max.
+// Errors: InvalidArgument for values that are not finite, ranges that are empty or exceed s_max, curves that exceed
+// 1e9 within s_max.
 [[nodiscard]] CONTREJOUR_API Result<void> check_flare(const MeasuredFlare& flare);
 
 [[nodiscard]] CONTREJOUR_API Result<MeasuredFlare> read_flare(std::string_view toml, const std::string& file);

@@ -67,6 +67,14 @@ void read_exposure(TomlFields& fields, TomlErrors& errors, MeasuredFlare& flare)
   flare.exposure = exposure;
 }
 
+void read_half_field(TomlFields& fields, MeasuredFlare& flare) {
+  const toml::array* list = fields.array("half_field");
+  if (list == nullptr) return;
+  if (list->size() != 2) return fields.fail(*list, "half_field: give two tangents, across and down");
+  flare.half_field = Vec2{fields.number_at(*list->get(0), "half_field", kTangent),
+                          fields.number_at(*list->get(1), "half_field", kTangent)};
+}
+
 void read_ghosts(TomlFields& fields, TomlErrors& errors, MeasuredFlare& flare) {
   const toml::array* rows = fields.array("ghosts");
   if (rows == nullptr) return;
@@ -100,12 +108,13 @@ Result<MeasuredFlare> read_flare(std::string_view toml, const std::string& file)
   const Result<toml::table> root = parse_toml(toml, file, kPage);
   if (!root) return tl::unexpected(root.error());
   TomlErrors errors(file);
-  TomlFields fields(*root, "flare", {"name", "source", "s_max", "exposure", "ghosts"}, errors);
+  TomlFields fields(*root, "flare", {"name", "source", "s_max", "half_field", "exposure", "ghosts"}, errors);
   MeasuredFlare flare;
   flare.name = fields.required_text("name", "give the flare a name");
   flare.source = fields.text("source").value_or("");
   flare.s_max =
       fields.required_number("s_max", {1e-6, kTangent.high}, "give the tangent of the largest angle measured");
+  read_half_field(fields, flare);
   read_exposure(fields, errors, flare);
   read_ghosts(fields, errors, flare);
   if (errors.failed()) return tl::unexpected(errors.error());
@@ -124,6 +133,9 @@ Result<MeasuredFlare> read_flare(const std::filesystem::path& file) {
 std::string write_flare(const MeasuredFlare& flare) {
   std::string text = fmt::format("name = {}\nsource = {}\ns_max = {}\n", toml_string(flare.name),
                                  toml_string(flare.source), toml_number(flare.s_max));
+  if (flare.half_field) {
+    text += fmt::format("half_field = [{}, {}]\n", toml_number(flare.half_field->x), toml_number(flare.half_field->y));
+  }
   if (flare.exposure) {
     text +=
         fmt::format("exposure = {{ f_number = {}, iso = {}, time_s = {} }}\n", toml_number(flare.exposure->f_number),

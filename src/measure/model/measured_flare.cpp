@@ -15,6 +15,9 @@ namespace {
 constexpr double kMinHalfAxis = 1e-7;
 constexpr double kMinRoundness = 0.05, kMaxRoundness = 1.0;
 constexpr double kMinSlope = 0.05, kMaxSlope = 30.0;
+// The squares of lengths in pixels, and levels times a light's value, stay within the range of a float.
+constexpr double kMaxCurve = 1e9;
+constexpr double kMaxHalfField = 1000.0;
 
 // 0 to 1 over [0, 1], with a slope of 0 at both ends.
 double smooth_step(double x) {
@@ -31,10 +34,20 @@ double presence(const MeasuredGhost& ghost, double s, double s_max) {
   return begins * ends;
 }
 
+bool is_half_field(double tangent) { return tangent > 0.0 && tangent <= kMaxHalfField; }
+
+// No value of the curve is larger for |s| up to s_max.
+double bound_of(const AngleCurve& curve, double s_max) {
+  AngleCurve sizes = curve;
+  for (double& coefficient : sizes.coefficients) coefficient = std::abs(coefficient);
+  return sizes(s_max);
+}
+
 Result<void> check_ghost(const MeasuredGhost& ghost, double s_max) {
   for (const AngleCurve* curve : curves_of(ghost)) {
-    if (!std::ranges::all_of(curve->coefficients, [](double c) { return std::isfinite(c); })) {
-      return invalid_argument(fmt::format("ghost \"{}\": a coefficient is not finite", ghost.name));
+    if (!(bound_of(*curve, s_max) <= kMaxCurve)) {
+      return invalid_argument(
+          fmt::format("ghost \"{}\": a coefficient is not finite, or the curve exceeds {:g}", ghost.name, kMaxCurve));
     }
   }
   if (!(ghost.first >= 0.0 && ghost.first < ghost.last && ghost.last <= s_max && ghost.transition >= 0.0)) {
@@ -57,6 +70,9 @@ double AngleCurve::operator()(double s) const {
 Result<void> check_flare(const MeasuredFlare& flare) {
   if (!(flare.s_max > 0.0 && std::isfinite(flare.s_max))) {
     return invalid_argument(fmt::format("s_max must be above 0: {:g}", flare.s_max));
+  }
+  if (const auto& half = flare.half_field; half && !(is_half_field(half->x) && is_half_field(half->y))) {
+    return invalid_argument(fmt::format("half_field must be two tangents above 0: {:g}, {:g}", half->x, half->y));
   }
   for (const MeasuredGhost& ghost : flare.ghosts) {
     if (Result<void> ok = check_ghost(ghost, flare.s_max); !ok) return ok;
