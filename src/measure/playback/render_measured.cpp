@@ -10,6 +10,7 @@
 #include "contrejour/expert/measured_flare.h"
 #include "measure/model/outline_cubic.h"
 #include "measure/playback/ghost_row.h"
+#include "measure/playback/measured_range.h"
 
 namespace contrejour {
 namespace {
@@ -18,7 +19,6 @@ constexpr int kBlock = 16;
 constexpr double kMaxPixels = 268435456.0;  // as for other renderers
 constexpr double kBlockRadius = 0.7071067811865476 * kBlock;
 constexpr double kSlack_px = 0.6;        // half a pixel, and the kernel's error
-constexpr double kBeyondRange = 0.2;     // of the measured range, over which the flare fades out
 
 // A ghost of one light in the picture's pixels, y down.
 struct PlacedGhost {
@@ -65,13 +65,10 @@ PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, cons
   return at;
 }
 
-// 1 within the measured range, 0 a fifth beyond it.
-double beyond_range(double s, double s_max) { return std::clamp(1.0 - (s - s_max) / (kBeyondRange * s_max), 0.0, 1.0); }
-
 void place_light(const MeasuredFlare& flare, const FlareLight& light, const TangentFrame& frame,
                  std::vector<PlacedGhost>& ghosts) {
   const double s = length(light.position);
-  const double level = beyond_range(s, flare.s_max);
+  const double level = level_beyond_range(s, flare.s_max);
   if (level <= 0.0) return;
   const Vec2 along = s > 0.0 ? light.position * (1.0 / s) : Vec2{1.0, 0.0};
   const Rgb value{level * light.value[0], level * light.value[1], level * light.value[2]};

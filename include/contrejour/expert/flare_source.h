@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What causes a flare: a configured lens, or a flare measured from photographs, which stands wherever a lens may.
+// Points of a measured flare's sensor are tangents of angles: it belongs to an ideal lens without distortion of a focal
+// length of 1 mm. A light's value is the sum of its direct image, as everywhere (docs/physics/radiometry.md).
+// Errors: InvalidArgument, Cancelled. Thread-safety: plain values, pure functions; the same bits for any number of
+// threads.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "contrejour/expert/measured_flare.h"
+#include "contrejour/export.h"
+#include "contrejour/frame.h"
+#include "contrejour/frame_settings.h"
+#include "contrejour/lens.h"
+#include "contrejour/light.h"
+#include "contrejour/render.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+using FlareSource = std::variant<LensState, MeasuredFlare>;
+
+// Whether a name is that of a measured flare's file: it ends in ".flare.toml", in any case.
+[[nodiscard]] CONTREJOUR_API bool is_measured_flare(std::string_view name);
+
+// The ideal lens: focal length 1 mm, no surfaces, the photographs' field as its sensor (0 x 0 where it is unknown).
+[[nodiscard]] CONTREJOUR_API LensState ideal_lens_of(const MeasuredFlare& flare);
+
+// The lens of a source: its own, or the ideal one. Its name, focal length and sensor are meaningful for both.
+[[nodiscard]] CONTREJOUR_API LensState geometry_of(const FlareSource& source);
+
+// The flare of lights, each drawn as a point in its direction and as if it were distant. frame: of the ideal lens.
+// Errors: those of render_measured(); a light that is not in front of the camera; a frame whose pixels have no size,
+// because neither the file nor the caller states the field.
+[[nodiscard]] CONTREJOUR_API Result<Flare> render(const MeasuredFlare& flare, std::span<const Light> lights,
+                                                  const Frame& frame, const Context& context = {});
+
+// The flare of either source. A measured flare takes the frame from the settings and ignores the rest.
+[[nodiscard]] CONTREJOUR_API Result<Flare> render(const MethodOptions& method, const FlareSource& source,
+                                                  std::span<const Light> lights, const FrameSettings& settings,
+                                                  const Context& context = {});
+
+// For the user: each light beyond the measured angles, and how much of its flare is left there.
+[[nodiscard]] CONTREJOUR_API std::vector<std::string> range_warnings(const MeasuredFlare& flare,
+                                                                     std::span<const Light> lights);
+
+}  // namespace contrejour
