@@ -84,6 +84,8 @@ PUBLIC = {
     "expert/light_detection.h": "image",
     "expert/light_source.h": "base",
     "expert/capture.h": "measure",
+    "expert/capture_list.h": "measure",
+    "expert/merge_stations.h": "measure",
     "expert/flare_prediction.h": "measure",
     "expert/flare_source.h": "measure",
     "expert/ghost_outline.h": "measure",
@@ -129,6 +131,7 @@ PUBLIC = {
     "expert/detected_picture.h": "compositing",
     "expert/flare_plan.h": "compositing",
     "expert/flare_visibility.h": "compositing",
+    "expert/measured_settings.h": "compositing",
     "expert/pixel_grid.h": "compositing",
 }
 
@@ -166,7 +169,7 @@ MAY_INCLUDE = {
     "render/starburst": ["render/planning", "ghosts", "diffraction", "render/area_lights"],
     "render/session": ["*renderers", "render/area_lights", "render/starburst"],
     "settings": ["render/planning"],
-    "compositing": ["settings", "render/session"],
+    "compositing": ["settings", "render/session", "measure"],
     "sequence": ["base"],
     "machine": ["trace", "ghosts", "image", "render/planning"],
     "measure": ["render/session", "image"],

@@ -135,6 +135,7 @@ void set_up(CLI::App& app, Action& action) {
   add_compare(app, action);
   add_preset(app, action);
   add_coating(app, action);
+  add_measure(app, action);
   add_bench(app, action);
 }
 

@@ -16,6 +16,7 @@
 #include "cli/options.h"
 #include "cli/preset_choice.h"
 #include "cli/sequence_options.h"
+#include "cli/source_choice.h"
 
 namespace contrejour::cli {
 namespace {
@@ -25,7 +26,8 @@ constexpr const char* kApplyExamples =
     "added. Everything else in the file is unchanged; a picture without lights is copied bit for bit. IN and OUT\n"
     "may be the same file. In a sequence, ####, @@@@ or %04d in the names stands for the number of a frame.\n"
     "Without --hfov the picture is assumed to fill the lens's sensor. --light and --light-at add lights that are\n"
-    "not in the picture, such as a sun outside the frame.\n\n"
+    "not in the picture, such as a sun outside the frame. LENS may be a measured flare, FILE.flare.toml, which\n"
+    "takes no option of a lens.\n\n"
     "Examples:\n"
     "  contrejour apply canon-70-200 --focal 135 plate.exr -o out.exr --preview out.png\n"
     "  contrejour apply heliar -f 16 plate.exr -o out.exr --flare-only flare.exr --hfov 40 --json\n"
@@ -36,22 +38,23 @@ constexpr const char* kApplyExamples =
     "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume";
 
 Result<int> apply_to_still(const ApplyOptions& options) {
-  const auto lens = open_lens(options.lens, options.values);
-  if (!lens) return tl::unexpected(lens.error());
-  auto planned = read_photograph(options, *lens);
+  const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
+  if (!source) return tl::unexpected(source.error());
+  const LensState lens = geometry_of(*source);
+  auto planned = read_photograph(options, lens);
   if (!planned) return tl::unexpected(planned.error());
-  print_warnings(planned->plan.warnings);
-  auto renderer = renderer_of(options.values, *lens);
+  auto renderer = renderer_of(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
   auto flared = [&] {
     const LongTask task("rendering", options.values.integer("threads"));
     return render_photograph(std::move(*planned), *renderer, task.context());
   }();
   if (!flared) return tl::unexpected(flared.error());
+  print_warnings(flared->planned.plan.warnings);
   const LongTask task("writing", 0);
   if (auto ok = write_photograph(*flared, task.context()); !ok) return tl::unexpected(ok.error());
   if (options.json) {
-    print_json(photograph_json(*flared, *lens));
+    print_json(photograph_json(*flared, lens));
   } else {
     const FlarePlan& plan = flared->planned.plan;
     print_summary(report_text(plan) + visibility_text(flared->flare.visibility, plan.lights.size()) +

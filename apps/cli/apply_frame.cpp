@@ -8,6 +8,7 @@
 #include "cli/apply_report.h"
 #include "cli/flare_report.h"
 #include "contrejour/expert/apply_files.h"
+#include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
 
@@ -36,6 +37,15 @@ Result<void> write_result(const PlannedPhotograph& planned, const Context& conte
                              : contrejour::write_photograph(*files.output, picture, options.values, context);
 }
 
+Result<PictureFlare> flare_of(PlannedPhotograph& planned, SourceRenderer& renderer, const Context& context) {
+  FlarePlan& plan = planned.plan;
+  if (auto* of_lens = std::get_if<Renderer>(&renderer))
+    return render_flare(plan, planned.picture.rgb, planned.options.values, *of_lens, context);
+  const auto& measured = std::get<MeasuredFlare>(renderer);
+  for (std::string& warning : range_warnings(measured, plan.lights)) plan.warnings.push_back(std::move(warning));
+  return render_flare(plan, planned.picture.rgb, measured, context);
+}
+
 }  // namespace
 
 Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, const LensState& lens) {
@@ -58,8 +68,9 @@ Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const Len
   return planned;
 }
 
-Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, Renderer& renderer, const Context& context) {
-  auto flare = render_flare(planned.plan, planned.picture.rgb, planned.options.values, renderer, context);
+Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
+                                           const Context& context) {
+  auto flare = flare_of(planned, renderer, context);
   if (!flare) return tl::unexpected(flare.error());
   return FlaredPhotograph{std::move(planned), std::move(*flare)};
 }
@@ -94,11 +105,12 @@ std::string photograph_text(const FlaredPhotograph& flared) {
                      total_ms(statistics) / 1000.0);
 }
 
-Result<Renderer> renderer_of(const params::Values& values, const LensState& lens) {
+Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source) {
+  if (const auto* flare = std::get_if<MeasuredFlare>(&source)) return SourceRenderer(*flare);
   auto renderer = Renderer::create(params::method_options(values));
-  if (!renderer) return renderer;
-  if (auto set = renderer->set_lens(lens); !set) return tl::unexpected(set.error());
-  return renderer;
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto set = renderer->set_lens(std::get<LensState>(source)); !set) return tl::unexpected(set.error());
+  return SourceRenderer(std::move(*renderer));
 }
 
 }  // namespace contrejour::cli

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cli/console.h"
@@ -12,6 +13,7 @@
 #include "cli/preset_choice.h"
 #include "contrejour/apply.h"
 #include "contrejour/context.h"
+#include "contrejour/expert/flare_source.h"
 #include "contrejour/renderer.h"
 
 namespace contrejour::cli {
@@ -50,8 +52,12 @@ struct FlaredPhotograph {
 [[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const LensState& lens,
                                                         Picture picture);
 
-// The renderer has the lens and the options' method.
-[[nodiscard]] Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, Renderer& renderer,
+// A renderer that has the lens and the options' method, or a measured flare.
+using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
+[[nodiscard]] Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source);
+
+// The plan's warnings then include those of lights beyond a measured flare's angles.
+[[nodiscard]] Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                                          const Context& context);
 
 // Adds the flare to the photograph and writes all files: all appear, or none.
@@ -59,8 +65,5 @@ struct FlaredPhotograph {
 
 [[nodiscard]] Json photograph_json(const FlaredPhotograph& flared, const LensState& lens);
 [[nodiscard]] std::string photograph_text(const FlaredPhotograph& flared);
-
-// A renderer for the options' method with the lens.
-[[nodiscard]] Result<Renderer> renderer_of(const params::Values& values, const LensState& lens);
 
 }  // namespace contrejour::cli

@@ -10,6 +10,7 @@
 
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
+#include "cli/source_choice.h"
 #include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/run_frames.h"
 
@@ -136,11 +137,12 @@ Result<void> save_preset(const ApplyOptions& options) {
 
 Result<int> apply_to_sequence(const ApplyOptions& options, const SequenceOptions& sequence_options) {
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
-  const auto lens = open_lens(options.lens, options.values);
-  if (!lens) return tl::unexpected(lens.error());
+  const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
+  if (!source) return tl::unexpected(source.error());
+  const LensState lens = geometry_of(*source);
   auto sequence = frames_of_sequence(sequence_options, options.input);
   if (!sequence) return tl::unexpected(sequence.error());
-  auto renderer = renderer_of(options.values, *lens);
+  auto renderer = renderer_of(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
   if (auto ok = save_preset(options); !ok) return tl::unexpected(ok.error());
 
@@ -152,8 +154,8 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const SequenceOptions
       return own && is_frame_done(records.of(*own, frame));
     });
 
-  FrameReader reader(options, *lens, *sequence);
-  FrameReport report(*lens, options.json);
+  FrameReader reader(options, lens, *sequence);
+  FrameReport report(lens, options.json);
   const LongTask task("rendering", options.values.integer("threads"));
   const auto write = [&](int frame, FlaredPhotograph& flared) -> Result<void> {
     Context quiet = task.context();

@@ -28,6 +28,7 @@ void add_compare(CLI::App& app, Action& action);
 void add_preset(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_coating(CLI::App& app, Action& action);
+void add_measure(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);
 void add_lens_info(CLI::App& lens, Action& action);
@@ -42,6 +43,10 @@ void add_glass_show(CLI::App& glass, Action& action);
 void add_glass_closest(CLI::App& glass, Action& action);
 void add_coating_show(CLI::App& coating, Action& action);
 void add_coating_fit(CLI::App& coating, Action& action);
+
+void add_measure_protocol(CLI::App& measure, Action& action);
+void add_measure_merge(CLI::App& measure, Action& action);
+void add_measure_predict(CLI::App& measure, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);

@@ -14,6 +14,7 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
+#include "cli/source_choice.h"
 #include "contrejour/expert/pixel_grid.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
@@ -26,12 +27,14 @@ namespace {
 constexpr const char* kRenderExamples =
     "Without a light option there is one light at u,v = 0.70,0.33. The image contains what the flare adds to a\n"
     "photograph, in the units of the lights, without their direct images (--starburst adds these). A PNG is a\n"
-    "preview, whose brightness --exposure sets.\n\n"
+    "preview, whose brightness --exposure sets. LENS may be a measured flare, FILE.flare.toml; then -f, --iso and\n"
+    "--shutter scale its brightness from the exposure of its photographs (docs/measure.md).\n\n"
     "Examples:\n"
     "  contrejour render heliar -o flare.exr\n"
     "  contrejour render canon-70-200 --focal 135 -f 8 --light 6,4 --light -3,5 -o flare.exr --preview flare.png\n"
     "  contrejour render nikon-80-200 --light-at 0.7,0.33:5000:3200K --light-at 0.2,0.8:900 --size 960x540 -o f.exr\n"
     "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json\n"
+    "  contrejour render mine.flare.toml --light 12,5:20000 --hfov 60 -o flare.exr\n"
     "  contrejour render --preset old-portrait --blades 7 -o flare.exr --save-preset mine.toml";
 
 struct RenderOptions {
@@ -62,19 +65,20 @@ struct RenderedFlare {
 
 Result<RenderedFlare> render_flare(const RenderOptions& options) {
   const params::Values& values = options.values;
-  const auto lens = open_lens(options.lens, values);
-  if (!lens) return tl::unexpected(lens.error());
+  const auto source = open_source(options.lens, values, MeasuredUse::Lights);
+  if (!source) return tl::unexpected(source.error());
+  const LensState lens = geometry_of(*source);
   const params::PixelSize size = *params::parse_size(*values.text("size"));
   const PixelWindow window{0, 0, size.width, size.height};
-  const double aspect = values.real("pixel-aspect").value_or(squeeze_of(*lens));
-  const auto grid = pixel_grid(values, *lens, window, window, aspect);
+  const double aspect = values.real("pixel-aspect").value_or(squeeze_of(lens));
+  const auto grid = pixel_grid(values, lens, window, window, aspect);
   if (!grid) return tl::unexpected(grid.error());
   const Frame& frame = grid->frame;
   const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
-  const auto lights = params::lights(values, *lens, frame, space);
+  const auto lights = scaled_lights(*source, params::lights(values, lens, frame, space), values);
   if (!lights) return tl::unexpected(lights.error());
   const LongTask task("rendering", values.integer("threads"));
-  auto flare = render(params::method_options(values), *lens, *lights, params::frame_settings(values, frame, space),
+  auto flare = render(params::method_options(values), *source, *lights, params::frame_settings(values, frame, space),
                       task.context());
   if (!flare) return tl::unexpected(flare.error());
   auto image = picture_of_flare(std::move(flare->image), *grid);

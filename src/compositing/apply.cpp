@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "compositing/picture_flare.h"
 #include "contrejour/expert/pixel_grid.h"
 #include "contrejour/expert/settings.h"
 
@@ -21,21 +22,32 @@ Result<Flare> render_on_grid(const FlarePlan& plan, const params::Values& values
 
 }  // namespace
 
-Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const params::Values& values,
-                                  Renderer& renderer, const Context& context) {
+inline namespace internal {
+
+PictureFlare flare_without_lights(const FlarePlan& plan) {
   PictureFlare flare;
-  if (plan.lights.empty()) {
-    flare.image = Image(plan.grid.width, plan.grid.height);
-    return flare;
-  }
-  auto rendered = render_on_grid(plan, values, renderer, context);
-  if (!rendered) return tl::unexpected(rendered.error());
-  auto image = picture_of_flare(std::move(rendered->image), plan.grid);
+  flare.image = Image(plan.grid.width, plan.grid.height);
+  return flare;
+}
+
+Result<PictureFlare> on_picture(Flare frame, const FlarePlan& plan, const Image& rgb) {
+  auto image = picture_of_flare(std::move(frame.image), plan.grid);
   if (!image) return tl::unexpected(image.error());
+  PictureFlare flare;
   flare.image = std::move(*image);
-  flare.statistics = std::move(rendered->statistics);
+  flare.statistics = std::move(frame.statistics);
   flare.visibility = visibility_of(rgb, flare.image, plan.found, plan.space);
   return flare;
+}
+
+}  // namespace internal
+
+Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const params::Values& values,
+                                  Renderer& renderer, const Context& context) {
+  if (plan.lights.empty()) return flare_without_lights(plan);
+  auto rendered = render_on_grid(plan, values, renderer, context);
+  if (!rendered) return tl::unexpected(rendered.error());
+  return on_picture(std::move(*rendered), plan, rgb);
 }
 
 Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,

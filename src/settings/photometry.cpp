@@ -49,6 +49,10 @@ Result<double> sum_of(const LightValue& value, const Light& light, const LensSta
   using Unit = LightValue::Unit;
   const double amount = value.rgb[0];
   const bool has_size = light.radius_rad > 0.0;
+  if (lens.surfaces.empty() && value.unit != Unit::Sum)
+    return invalid_argument(
+        "a measured flare does not say how much light its lens lets in; give the value of a light as the sum of its "
+        "direct image, a number without a unit");
   switch (value.unit) {
     case Unit::Sum: return amount;
     case Unit::Stops:

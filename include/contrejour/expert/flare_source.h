@@ -29,14 +29,18 @@ using FlareSource = std::variant<LensState, MeasuredFlare>;
 [[nodiscard]] CONTREJOUR_API bool is_measured_flare(std::string_view name);
 
 // The ideal lens: focal length 1 mm, no surfaces, the photographs' field as its sensor (0 x 0 where it is unknown).
+// direction_for_image_point() and chief_ray_image_point() of trace.h know such lenses, renderers do not.
 [[nodiscard]] CONTREJOUR_API LensState ideal_lens_of(const MeasuredFlare& flare);
+
+// The error where neither that file nor the user states the field of a picture.
+[[nodiscard]] CONTREJOUR_API Error unknown_field(const MeasuredFlare& flare);
 
 // The lens of a source: its own, or the ideal one. Its name, focal length and sensor are meaningful for both.
 [[nodiscard]] CONTREJOUR_API LensState geometry_of(const FlareSource& source);
 
-// The flare of lights, each drawn as a point in its direction and as if it were distant. frame: of the ideal lens.
-// Errors: those of render_measured(); a light that is not in front of the camera; a frame whose pixels have no size,
-// because neither the file nor the caller states the field.
+// The flare of lights by their directions, which counts as that of distant lights. frame: of the ideal lens. Errors:
+// those of render_measured(); a light that is not in front of the camera, or has a size; a frame whose pixels have no
+// size, because neither the file nor the caller states the field.
 [[nodiscard]] CONTREJOUR_API Result<Flare> render(const MeasuredFlare& flare, std::span<const Light> lights,
                                                   const Frame& frame, const Context& context = {});
 

@@ -24,6 +24,8 @@ Result<std::vector<FlareLight>> flare_lights(std::span<const Light> lights) {
   std::vector<FlareLight> all;
   for (const Light& light : lights) {
     if (!(light.direction.z > kMinForward)) return invalid_argument("a light is not in front of the camera");
+    if (light.radius_rad != 0.0 || light.shape)
+      return invalid_argument("a measured flare has the size of the light it was measured with; give lights no size");
     all.push_back({tangents_of(light.direction), light.value});
   }
   return all;
@@ -41,6 +43,14 @@ bool is_measured_flare(std::string_view name) {
   return std::ranges::equal(name.substr(name.size() - kFlareEnding.size()), kFlareEnding, [](char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
   });
+}
+
+Error unknown_field(const MeasuredFlare& flare) {
+  return {ErrorCode::InvalidArgument,
+          fmt::format("the measured flare \"{}\" does not state the field of its photographs (half_field), so that the "
+                      "size of the picture is unknown; give the horizontal field with --hfov",
+                      flare.name),
+          {}};
 }
 
 LensState ideal_lens_of(const MeasuredFlare& flare) {
@@ -61,12 +71,7 @@ LensState geometry_of(const FlareSource& source) {
 
 Result<Flare> render(const MeasuredFlare& flare, std::span<const Light> lights, const Frame& frame,
                      const Context& context) {
-  if (!(frame.pixel_pitch_mm > 0.0)) {
-    return invalid_argument(
-        fmt::format("the measured flare \"{}\" does not state the field of its photographs (half_field), so that the "
-                    "size of the picture is unknown; give the horizontal field with --hfov",
-                    flare.name));
-  }
+  if (!(frame.pixel_pitch_mm > 0.0)) return tl::unexpected(unknown_field(flare));
   const auto placed = flare_lights(lights);
   if (!placed) return tl::unexpected(placed.error());
   const auto start = Clock::now();

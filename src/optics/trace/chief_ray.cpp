@@ -195,10 +195,14 @@ Vec3 direction_of_displaced_lens(const LensState& lens, Vec2 sensor_mm, double l
   return direction;
 }
 
+// Its chief rays go straight through the middle.
+bool is_ideal_lens(const LensState& lens) { return lens.surfaces.empty() && lens.focal_length_mm > 0.0; }
+
 }  // namespace
 
 // A positive lens images a distant light on the side of the sensor to which its direction of travel d points.
 Vec3 direction_for_image_point(const LensState& lens, Vec2 sensor_mm, double lambda_nm, double distance_mm) {
+  if (is_ideal_lens(lens)) return normalized(Vec3{sensor_mm.x, sensor_mm.y, lens.focal_length_mm});
   if (!has_stop(lens) || !std::isfinite(sensor_mm.x + sensor_mm.y)) return {kNan, kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_direction(lens, sensor_mm, lambda_nm, distance_mm);
   if (!is_centred(lens)) return direction_of_displaced_lens(lens, sensor_mm, lambda_nm, distance_mm);
@@ -212,6 +216,7 @@ Vec3 direction_for_image_point(const LensState& lens, Vec2 sensor_mm, double lam
 
 Vec2 chief_ray_image_point(const LensState& lens, const LightSource& source, double lambda_nm) {
   const Vec3 d = source.direction;
+  if (is_ideal_lens(lens)) return Vec2{d.x, d.y} * (lens.focal_length_mm / d.z);
   if (!has_stop(lens) || !std::isfinite(d.x + d.y + d.z)) return {kNan, kNan};
   if (is_anamorphic(lens)) return anamorphic_image_point(lens, source, lambda_nm);
   const Vec2 across{source.direction.x, source.direction.y};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a command takes where it asks for a lens: a bundled lens or a lens file, or a measured flare (`.flare.toml`).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/measured_settings.h"
+#include "contrejour/expert/parameter_values.h"
+
+namespace contrejour::cli {
+
+// Opens the lens with open_lens(), or reads the measured flare. Errors: those of open_lens() and read_flare(); values
+// that a measured flare cannot follow.
+[[nodiscard]] Result<FlareSource> open_source(const std::string& lens, const params::Values& values, MeasuredUse use);
+
+[[nodiscard]] const std::string& name_of(const FlareSource& source);
+
+// The same lights; with a measured flare in the exposure that the values state (walch2018 eq. 2), and with warnings for
+// those beyond the measured angles. Errors: those of exposure_scale().
+[[nodiscard]] Result<std::vector<Light>> scaled_lights(const FlareSource& source, Result<std::vector<Light>> lights,
+                                                       const params::Values& values);
+
+// Warns of lights beyond the measured angles.
+void print_range_warnings(const FlareSource& source, const std::vector<Light>& lights);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/station_file.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/image_io.h"
+
+namespace contrejour::cli {
+namespace {
+
+constexpr const char* kAngleAttribute = "headAngleDegrees";
+constexpr const char* kDirectAttribute = "directImage";  // x, y, red, green, blue
+
+void add_layer(Picture& picture, const std::string& layer, const Image& image) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    PictureChannel channel;
+    channel.name = layer + "." + "RGB"[c];
+    channel.type = SampleType::Float;
+    channel.samples.resize(image.pixels.size() / 3 * sizeof(float));
+    for (std::size_t k = 0; k < image.pixels.size() / 3; ++k)
+      std::memcpy(channel.samples.data() + k * sizeof(float), &image.pixels[3 * k + c], sizeof(float));
+    picture.channels.push_back(std::move(channel));
+  }
+}
+
+}  // namespace
+
+Result<void> write_station(const std::filesystem::path& file, const MergedStation& station) {
+  Picture picture = picture_of(station.image.rate);
+  add_layer(picture, "variance", station.image.variance);
+  add_layer(picture, "valid", station.image.valid);
+  set_text_attribute(picture, kAngleAttribute, fmt::format("{}", station.angle_deg));
+  if (const auto& direct = station.direct) {
+    set_text_attribute(picture, kDirectAttribute,
+                       fmt::format("{},{},{},{},{}", direct->position_px.x, direct->position_px.y, direct->rate[0],
+                                   direct->rate[1], direct->rate[2]));
+  }
+  return write_picture(file, picture);
+}
+
+Result<StationFacts> read_station_facts(const std::filesystem::path& file) {
+  const auto picture = read_picture(file);
+  if (!picture) return tl::unexpected(picture.error());
+  const auto angle = text_attribute(*picture, kAngleAttribute);
+  const auto angle_deg = params::parse_real(angle.value_or(""));
+  if (!angle_deg)
+    return failure(ErrorCode::Parse, "this is not a merged station; remove it or name another folder",
+                   {file.string(), 0, 0});
+  StationFacts facts{*angle_deg, {}};
+  const auto direct = params::parse_reals(text_attribute(*picture, kDirectAttribute).value_or(""), 5);
+  if (direct) facts.direct = DirectFlux{{(*direct)[0], (*direct)[1]}, {(*direct)[2], (*direct)[3], (*direct)[4]}};
+  return facts;
+}
+
+}  // namespace contrejour::cli

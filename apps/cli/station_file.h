@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The file of a merged station: an EXR with the rate in R, G, B (DN per second), its variance in variance.R, .G, .B and
+// in valid.R, .G, .B 1, or 0 where every exposure is saturated. Attributes state the angle and the direct image.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "contrejour/expert/merge_stations.h"
+
+namespace contrejour::cli {
+
+[[nodiscard]] Result<void> write_station(const std::filesystem::path& file, const MergedStation& station);
+
+// What a finished file states of its station, without the pixels. Errors: those of read_picture(); a file that
+// write_station() did not write.
+struct StationFacts {
+  double angle_deg = 0;
+  std::optional<DirectFlux> direct;
+};
+[[nodiscard]] Result<StationFacts> read_station_facts(const std::filesystem::path& file);
+
+}  // namespace contrejour::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a rendered frame to the flare of a photograph's pixels.
+// Thread-safety: pure functions.
+#pragma once
+
+#include "contrejour/apply.h"
+
+namespace contrejour::inline internal {
+
+[[nodiscard]] PictureFlare flare_without_lights(const FlarePlan& plan);
+
+// Errors: those of picture_of_flare().
+[[nodiscard]] Result<PictureFlare> on_picture(Flare frame, const FlarePlan& plan, const Image& rgb);
+
+}  // namespace contrejour::inline internal
