@@ -14,7 +14,7 @@
 namespace contrejour::cli {
 namespace {
 
-constexpr double kChartRadius = 270.0, kChartTop = 56.0, kChartMargin = 40.0, kLegendWidth = 170.0;
+constexpr double kChartRadius = 270.0, kChartTop = 56.0, kChartMargin = 40.0, kLegendWidth = 180.0;
 constexpr Vec2 kChartCentre{kChartMargin + kChartRadius, kChartTop + kChartRadius};
 constexpr double kChartWidth = 2.0 * (kChartMargin + kChartRadius) + kLegendWidth;
 constexpr double kChartHeight = kChartTop + 2.0 * kChartRadius + kChartMargin;
@@ -26,18 +26,21 @@ constexpr int kRings = 5, kOutlinePoints = 80;
 constexpr std::array<std::array<int, 3>, 5> kChartColours{
     {{26, 122, 62}, {148, 203, 110}, {255, 236, 140}, {240, 130, 50}, {165, 20, 30}}};
 
-// 0 to 1 from nothing to the safe limit, 1 to 4 from there to the worst.
+// Between the first two colours up to the safe limit, among the others beyond it, so that the limit shows. Cells have a
+// border of their colour, because viewers leave seams between them.
 std::string chart_colour(double in_range, double safe) {
-  const double t = in_range <= safe ? (safe > 0.0 ? in_range / safe : 0.0)
-                                    : 1.0 + 3.0 * (in_range - safe) / std::max(1.0 - safe, 1e-9);
-  const double at = std::clamp(t, 0.0, 4.0);
-  const auto low = std::min(static_cast<std::size_t>(at), kChartColours.size() - 2);
+  const bool is_safe = in_range <= safe;
+  const double part = is_safe ? in_range / std::max(safe, 1e-9) : (in_range - safe) / std::max(1.0 - safe, 1e-9);
+  const double at = is_safe ? std::clamp(part, 0.0, 1.0) : 2.0 + 2.0 * std::clamp(part, 0.0, 1.0);
+  const auto low = is_safe ? std::size_t{0} : std::min(static_cast<std::size_t>(at), kChartColours.size() - 2);
   std::array<int, 3> rgb;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double part = at - static_cast<double>(low);
-    rgb[c] = static_cast<int>(std::lround(kChartColours[low][c] * (1.0 - part) + kChartColours[low + 1][c] * part));
+    const double between = at - static_cast<double>(low);
+    rgb[c] =
+        static_cast<int>(std::lround(kChartColours[low][c] * (1.0 - between) + kChartColours[low + 1][c] * between));
   }
-  return fmt::format("fill=\"#{:02x}{:02x}{:02x}\"", rgb[0], rgb[1], rgb[2]);
+  const std::string colour = fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+  return fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.6\"", colour);
 }
 
 // A point of the chart: the distance from its centre is the angle from the axis.
@@ -138,7 +141,7 @@ void draw_legend(Svg& svg, const LightChart& chart, const std::vector<double>& v
     svg.text({left + 28.0, y + 4.0}, fmt::format("{:.3g} {}", *least + in_range * (*most - *least), word), kChartText);
   };
   label(1.0, "worst");
-  label(chart.safe, "safe up to here");
+  label(chart.safe, "safe");
   label(0.0, "");
   svg.text({left, top - 14.0}, std::string(kEstimatorNames[static_cast<std::size_t>(chart.estimator)]), kChartText);
   svg.text({left, top + height + 26.0}, "dashed: the picture", kChartText);

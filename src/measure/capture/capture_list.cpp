@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kHeader = "station,angle_deg,kind,time_s,file";
 constexpr std::size_t kMaxCaptures = 1000000;
 constexpr int kMaxStations = 100000;
-constexpr double kMaxTime_s = 86400.0;
+constexpr double kMinTime_s = 1e-9, kMaxTime_s = 86400.0;
 
 template <class T>
 bool parse_whole(std::string_view text, T& value) {
@@ -24,7 +24,7 @@ bool parse_whole(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-bool is_time(double time_s) { return time_s > 0.0 && time_s <= kMaxTime_s; }
+bool is_time(double time_s) { return time_s >= kMinTime_s && time_s <= kMaxTime_s; }
 
 // Five fields; the last, a file's name, may contain commas.
 std::vector<std::string_view> fields_of(std::string_view line) {
