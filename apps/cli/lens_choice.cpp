@@ -7,6 +7,7 @@
 
 #include "cli/console.h"
 #include "cli/glass_choice.h"
+#include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
@@ -18,6 +19,13 @@ CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
 }
 
 Result<Prescription> prescription_of(const std::string& lens) {
+  if (is_measured_flare(lens)) {
+    return failure(
+        ErrorCode::Unsupported,
+        "this is a measured flare, which has no surfaces; render, apply and measure predict take it, but this "
+        "command needs a lens",
+        {lens, 0, 0});
+  }
   const auto glasses = own_glasses();
   if (!glasses) return tl::unexpected(glasses.error());
   return find_lens(lens, &*glasses);

@@ -172,6 +172,23 @@ class MeasuredFlare(ProgramTest):
         out = exr.Picture(self.folder / "out.exr")
         self.assertAlmostEqual(out.value(29, 59), 0.1 + flare.value(29, 59), places=4)
 
+    def test_a_sequence(self):
+        self.write_flare()
+        for frame in (1, 2):
+            values = [0.1] * (60 * 40)
+            values[600 + frame] = 500.0
+            exr.write(self.folder / f"in.{frame:04}.exr", {name: (exr.FLOAT, values) for name in "RGB"}, 60, 40)
+        self.run_program("apply", "a.flare.toml", "in.####.exr", "-o", "out.####.exr", "--frames", "1-2")
+        for frame in (1, 2):
+            self.run_program("apply", "a.flare.toml", f"in.{frame:04}.exr", "-o", "still.exr")
+            self.assertEqual(exr.Picture(self.folder / f"out.{frame:04}.exr").channels,
+                             exr.Picture(self.folder / "still.exr").channels)
+
+    def test_other_commands_need_a_lens(self):
+        self.write_flare()
+        for command in (["ghosts"], ["lens", "info"]):
+            self.assertIn("measured flare", self.error_of(*command, "a.flare.toml", code=1))
+
     def test_same_for_any_number_of_threads(self):
         self.write_flare()
         self.picture("--light", "12,6", "--threads", "1", *SMALL)

@@ -9,6 +9,7 @@
 
 #include "contrejour/expert/flare_prediction.h"
 #include "contrejour/expert/panorama.h"
+#include "contrejour/expert/trace.h"
 
 using namespace contrejour;
 
@@ -133,6 +134,18 @@ TEST_CASE("prediction: a measured flare is drawn where a lens would draw it") {
   const auto refused = render(fieldless, std::span(&light, 1), frame_on_sensor(ideal_lens_of(fieldless), 12, 8));
   REQUIRE(!refused);
   CHECK(refused.error().message.find("--hfov") != std::string::npos);
+}
+
+TEST_CASE("prediction: the ideal lens maps directions to points and back") {
+  const LensState ideal = ideal_lens_of(disc_flare(1.0));
+  const Vec3 direction = direction_from_angles(20.0 * kRadian, -10.0 * kRadian);
+  const Vec2 at = chief_ray_image_point(ideal, direction, 550.0);
+  CHECK(at.x == doctest::Approx(direction.x / direction.z));
+  CHECK(at.y == doctest::Approx(direction.y / direction.z));
+  const Vec3 back = direction_for_image_point(ideal, at, 550.0);
+  CHECK(back.x == doctest::Approx(direction.x));
+  CHECK(back.y == doctest::Approx(direction.y));
+  CHECK(back.z == doctest::Approx(direction.z));
 }
 
 TEST_CASE("prediction: lights beyond the measured angles are named") {
