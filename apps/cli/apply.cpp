@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/animation_option.h"
 #include "cli/apply_frame.h"
 #include "cli/apply_report.h"
 #include "cli/apply_sequence.h"
@@ -35,13 +36,13 @@ constexpr const char* kApplyExamples =
     "  contrejour apply planar-50 plate.exr -o out.exr --region 0.6,0,1,0.4 --detected lights.png\n"
     "  contrejour apply heliar plate.exr -o out.exr --no-detect --light-at 1.1,-0.1:2e6\n"
     "  contrejour apply heliar comp.exr -o out.exr --layer beauty\n"
-    "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume";
+    "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume\n"
+    "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml";
 
 Result<int> apply_to_still(const ApplyOptions& options) {
   const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
   if (!source) return tl::unexpected(source.error());
-  const LensState lens = geometry_of(*source);
-  auto planned = read_photograph(options, lens);
+  auto planned = read_photograph(options, std::make_shared<const LensState>(geometry_of(*source)));
   if (!planned) return tl::unexpected(planned.error());
   auto renderer = renderer_of(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
@@ -54,7 +55,7 @@ Result<int> apply_to_still(const ApplyOptions& options) {
   const LongTask task("writing", 0);
   if (auto ok = write_photograph(*flared, task.context()); !ok) return tl::unexpected(ok.error());
   if (options.json) {
-    print_json(photograph_json(*flared, lens));
+    print_json(photograph_json(*flared));
   } else {
     const FlarePlan& plan = flared->planned.plan;
     print_summary(report_text(plan) + visibility_text(flared->flare.visibility, plan.lights.size()) +
@@ -64,9 +65,13 @@ Result<int> apply_to_still(const ApplyOptions& options) {
 }
 
 Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
+  const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
-  if (is_sequence(options.input) || !sequence.frames.empty()) return apply_to_sequence(options, sequence);
+  const auto values = FrameValues::create(options.lights, command_line, options.values);
+  if (!values) return tl::unexpected(values.error());
+  if (is_sequence(options.input) || !sequence.frames.empty()) return apply_to_sequence(options, *values, sequence);
+  options.values = values->of_still();
   return apply_to_still(options);
 }
 
@@ -102,6 +107,7 @@ void add_apply(CLI::App& app, Action& action) {
                   "spectrum", "gain", "stops"});
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
+  add_animation_option(*command, options->lights);
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);

@@ -32,7 +32,7 @@ Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const 
 }
 
 Result<void> write_result(const PlannedPhotograph& planned, const Context& context) {
-  const auto& [options, outputs, files, picture, plan] = planned;
+  const auto& [options, lens, outputs, files, picture, plan] = planned;
   return plan.lights.empty() ? copy_photograph(*files.output, options.input, picture, options.values, context)
                              : contrejour::write_photograph(*files.output, picture, options.values, context);
 }
@@ -48,18 +48,19 @@ Result<PictureFlare> flare_of(PlannedPhotograph& planned, SourceRenderer& render
 
 }  // namespace
 
-Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, const LensState& lens) {
+Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens) {
   auto picture = read_picture(options.input, options.read);
   if (!picture) return tl::unexpected(picture.error());
-  return plan_photograph(options, lens, std::move(*picture));
+  return plan_photograph(options, std::move(lens), std::move(*picture));
 }
 
-Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const LensState& lens, Picture picture) {
-  PlannedPhotograph planned{options, {}, {}, std::move(picture), {}};
+Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens,
+                                          Picture picture) {
+  PlannedPhotograph planned{options, std::move(lens), {}, {}, std::move(picture), {}};
   auto files = open_apply_files(options, planned.outputs);
   if (!files) return tl::unexpected(files.error());
   planned.files = *files;
-  auto plan = plan_flare(planned.picture, lens, options.values);
+  auto plan = plan_flare(planned.picture, *planned.lens, options.values);
   if (!plan) {
     if (plan.error().position.file.empty()) plan.error().position.file = options.input;
     return tl::unexpected(plan.error());
@@ -77,7 +78,7 @@ Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRe
 
 // The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
 Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) {
-  auto& [options, outputs, files, picture, plan] = flared.planned;
+  auto& [options, lens, outputs, files, picture, plan] = flared.planned;
   const Image& flare = flared.flare.image;
   Result<void> ok;
   if (files.detected) ok = write_detected(*files.detected, picture, plan, context);
@@ -90,9 +91,9 @@ Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) 
   return ok ? outputs.commit() : ok;
 }
 
-Json photograph_json(const FlaredPhotograph& flared, const LensState& lens) {
-  const auto& [options, outputs, files, picture, plan] = flared.planned;
-  Json json = {{"lens", lens.name}, {"input", options.input}, {"output", options.output}};
+Json photograph_json(const FlaredPhotograph& flared) {
+  const auto& [options, lens, outputs, files, picture, plan] = flared.planned;
+  Json json = {{"lens", lens->name}, {"input", options.input}, {"output", options.output}};
   json.update(report_json(plan));
   json["flare"] = visibility_json(flared.flare.visibility);
   json["statistics"] = plan.lights.empty() ? Json() : stats_json(flared.flare.statistics);

@@ -3,7 +3,7 @@
 // write its files. A still is a sequence of one.
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,7 +19,7 @@
 namespace contrejour::cli {
 
 struct ApplyOptions {
-  std::string lens, input, output, flare_only, detected, preview;
+  std::string lens, input, output, flare_only, detected, preview, lights;
   bool json = false;
   ReadOptions read;
   PresetOptions preset;
@@ -35,6 +35,7 @@ struct ApplyFiles {
 
 struct PlannedPhotograph {
   ApplyOptions options;
+  std::shared_ptr<const LensState> lens;
   Outputs outputs;
   ApplyFiles files;
   Picture picture;
@@ -47,10 +48,11 @@ struct FlaredPhotograph {
 };
 
 // Opens all outputs, so that a long rendering does not fail at its end, reads the photograph and plans its flare.
-[[nodiscard]] Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, const LensState& lens);
+[[nodiscard]] Result<PlannedPhotograph> read_photograph(const ApplyOptions& options,
+                                                        std::shared_ptr<const LensState> lens);
 // The same for a picture in memory instead of the input's.
-[[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, const LensState& lens,
-                                                        Picture picture);
+[[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options,
+                                                        std::shared_ptr<const LensState> lens, Picture picture);
 
 // A renderer that has the lens and the options' method, or a measured flare.
 using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
@@ -63,7 +65,7 @@ using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
 // Adds the flare to the photograph and writes all files: all appear, or none.
 [[nodiscard]] Result<void> write_photograph(FlaredPhotograph& flared, const Context& context);
 
-[[nodiscard]] Json photograph_json(const FlaredPhotograph& flared, const LensState& lens);
+[[nodiscard]] Json photograph_json(const FlaredPhotograph& flared);
 [[nodiscard]] std::string photograph_text(const FlaredPhotograph& flared);
 
 }  // namespace contrejour::cli

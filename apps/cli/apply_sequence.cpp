@@ -8,17 +8,17 @@
 
 #include <fmt/format.h>
 
-#include "cli/lens_choice.h"
+#include "cli/frame_lens.h"
 #include "cli/long_task.h"
-#include "cli/source_choice.h"
 #include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/run_frames.h"
 
 namespace contrejour::cli {
 namespace {
 
-Result<ApplyOptions> options_of_frame(const ApplyOptions& options, int frame) {
+Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameValues& values, int frame) {
   ApplyOptions own = options;
+  own.values = values.at(frame);
   for (std::string* name : {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}) {
     auto numbered = name_of_frame(*name, frame);
     if (!numbered) return tl::unexpected(numbered.error());
@@ -29,39 +29,31 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, int frame) {
 }
 
 // The files of a frame, for its record.
-class ApplyRecords {
- public:
-  ApplyRecords(const ApplyOptions& options, const std::set<int>& missing)
-      : settings_(settings_record("apply", options.lens, options.values)), missing_(missing) {
-    settings_.text += fmt::format("layer = {}\npart = {}\n", options.read.layer, options.read.part);
-  }
-
-  [[nodiscard]] FrameFiles of(const ApplyOptions& own, int frame) const {
-    FrameFiles files{settings_.text, settings_.files, {}};
-    if (!missing_.contains(frame)) files.inputs.emplace_back(own.input);
-    for (const std::string& output : own.outputs())
-      if (!output.empty()) files.outputs.emplace_back(output);
-    return files;
-  }
-
- private:
-  SettingsRecord settings_;
-  const std::set<int>& missing_;
-};
+FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
+  SettingsRecord settings = settings_record("apply", own.lens, own.values);
+  settings.text += fmt::format("layer = {}\npart = {}\n", own.read.layer, own.read.part);
+  FrameFiles files{std::move(settings.text), std::move(settings.files), {}};
+  if (!is_missing) files.inputs.emplace_back(own.input);
+  for (const std::string& output : own.outputs())
+    if (!output.empty()) files.outputs.emplace_back(output);
+  return files;
+}
 
 // Reads frames, all of which must have the first one's size.
 class FrameReader {
  public:
-  FrameReader(const ApplyOptions& options, const LensState& lens, const SequenceFrames& sequence)
-      : options_(options), lens_(lens), sequence_(sequence) {}
+  FrameReader(const ApplyOptions& options, const FrameValues& values, FrameLens& lens, const SequenceFrames& sequence)
+      : options_(options), values_(values), lens_(lens), sequence_(sequence) {}
 
   [[nodiscard]] Result<PlannedPhotograph> read(int frame) {
-    auto own = options_of_frame(options_, frame);
+    auto own = options_of_frame(options_, values_, frame);
     if (!own) return tl::unexpected(own.error());
+    auto lens = lens_.at(own->values);
+    if (!lens) return tl::unexpected(lens.error());
     auto picture = sequence_.missing.contains(frame) ? black_picture() : read_picture(own->input, own->read);
     if (!picture) return tl::unexpected(picture.error());
     if (auto fits = check_size(*picture, frame, own->input); !fits) return tl::unexpected(fits.error());
-    return plan_photograph(*own, lens_, std::move(*picture));
+    return plan_photograph(*own, std::move(*lens), std::move(*picture));
   }
 
  private:
@@ -75,7 +67,7 @@ class FrameReader {
     if (!black_) {
       const auto present = std::find_if(sequence_.frames.begin(), sequence_.frames.end(),
                                         [&](int frame) { return !sequence_.missing.contains(frame); });
-      const auto own = options_of_frame(options_, *present);
+      const auto own = options_of_frame(options_, values_, *present);
       if (!own) return tl::unexpected(own.error());
       auto picture = read_picture(own->input, own->read);
       if (!picture) return picture;
@@ -97,7 +89,8 @@ class FrameReader {
   }
 
   const ApplyOptions& options_;
-  const LensState& lens_;
+  const FrameValues& values_;
+  FrameLens& lens_;
   const SequenceFrames& sequence_;
   std::optional<FirstFrame> first_;
   std::optional<Picture> black_;
@@ -106,19 +99,18 @@ class FrameReader {
 // Prints a line for each frame, and each warning once.
 class FrameReport {
  public:
-  FrameReport(const LensState& lens, bool json) : lens_(lens), json_(json) {}
+  explicit FrameReport(bool json) : json_(json) {}
 
   void add(int frame, const FlaredPhotograph& flared) {
     for (const std::string& warning : flared.planned.plan.warnings)
       if (said_.insert(warning).second) print_warnings({warning});
     if (!json_) return print_summary(photograph_text(flared));
     Json json = {{"frame", frame}};
-    json.update(photograph_json(flared, lens_));
+    json.update(photograph_json(flared));
     print(json_line(json));
   }
 
  private:
-  const LensState& lens_;
   bool json_;
   std::set<std::string> said_;
 };
@@ -135,41 +127,42 @@ Result<void> save_preset(const ApplyOptions& options) {
 
 }  // namespace
 
-Result<int> apply_to_sequence(const ApplyOptions& options, const SequenceOptions& sequence_options) {
+Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& values,
+                              const SequenceOptions& sequence_options) {
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
-  const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
-  if (!source) return tl::unexpected(source.error());
-  const LensState lens = geometry_of(*source);
   auto sequence = frames_of_sequence(sequence_options, options.input);
   if (!sequence) return tl::unexpected(sequence.error());
-  auto renderer = renderer_of(options.values, *source);
+  auto lens = FrameLens::create(options.lens, values, sequence->frames.front());
+  if (!lens) return tl::unexpected(lens.error());
+  auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
   if (!renderer) return tl::unexpected(renderer.error());
   if (auto ok = save_preset(options); !ok) return tl::unexpected(ok.error());
 
-  const ApplyRecords records(options, sequence->missing);
+  const auto is_missing = [&](int frame) { return sequence->missing.contains(frame); };
   std::vector<int> frames = sequence->frames;
   if (sequence_options.resume)
     leave_out_done(frames, [&](int frame) {
-      const auto own = options_of_frame(options, frame);
-      return own && is_frame_done(records.of(*own, frame));
+      const auto own = options_of_frame(options, values, frame);
+      return own && is_frame_done(files_of(*own, is_missing(frame)));
     });
 
-  FrameReader reader(options, lens, *sequence);
-  FrameReport report(lens, options.json);
+  FrameReader reader(options, values, *lens, *sequence);
+  FrameReport report(options.json);
   const LongTask task("rendering", options.values.integer("threads"));
+  const auto render = [&](int, PlannedPhotograph& planned, const Context& context) -> Result<FlaredPhotograph> {
+    if (auto set = renderer->set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
+    return render_photograph(std::move(planned), renderer->get(), context);
+  };
   const auto write = [&](int frame, FlaredPhotograph& flared) -> Result<void> {
     Context quiet = task.context();
     quiet.progress = {};
     if (auto ok = write_photograph(flared, quiet); !ok) return ok;
     report.add(frame, flared);
-    return write_frame_record(records.of(flared.planned.options, frame));
+    return write_frame_record(files_of(flared.planned.options, is_missing(frame)));
   };
   const auto failures = run_frames(
-      frames, [&](int frame) { return reader.read(frame); },
-      [&](int, PlannedPhotograph& planned, const Context& context) {
-        return render_photograph(std::move(planned), *renderer, context);
-      },
-      write, {sequence_options.keep_going}, task.context());
+      frames, [&](int frame) { return reader.read(frame); }, render, write, {sequence_options.keep_going},
+      task.context());
   if (!failures) return tl::unexpected(failures.error());
   return report_failures(*failures, frames.size());
 }

@@ -8,10 +8,10 @@ namespace {
 
 // clang-format off: each parameter takes two or three lines, with its help in the last.
 const Parameter kLightTable[] = {
-    {.name = "light", .group = "Lights", .unit = "AZ,EL[:VALUE[:COLOUR[:SIZE]]]",
+    {.name = "light", .group = "Lights", .unit = "AZ,EL[:VALUE[:COLOUR[:SIZE[:DISTANCE]]]]",
      .help = "a light by its direction, in degrees to the right and up; may be repeated", .repeats = true,
      .scene = true, .check = parses<parse_light>},
-    {.name = "light-at", .group = "Lights", .unit = "U,V[:VALUE[:COLOUR[:SIZE]]]",
+    {.name = "light-at", .group = "Lights", .unit = "U,V[:VALUE[:COLOUR[:SIZE[:DISTANCE]]]]",
      .help = "a light by the position of its image: 0,0 is the top left corner of the frame and 1,1 the bottom right; "
              "the image may lie outside the frame; may be repeated",
      .repeats = true, .scene = true, .check = parses<parse_light>},

@@ -68,7 +68,7 @@ struct LightMaker {
   [[nodiscard]] Result<Light> make(Vec3 direction, const LightText& text) const {
     Light light;
     light.direction = direction;
-    light.distance_mm = distance_mm;
+    light.distance_mm = text.distance_mm.value_or(distance_mm);
     light.radius_rad = 0.5 * text.size_deg.value_or(values.number("light-size")) * kDegree_rad;
     LightValue own = text.value.value_or(value);
     const auto sum = sum_of(own, light, lens, frame, exposure);
@@ -85,7 +85,9 @@ struct LightMaker {
 
   [[nodiscard]] Result<Light> make_by_image(const LightText& text) const {
     const Vec2 sensor_mm = frame.sensor_from_uv(text.position);
-    return make(direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, distance_mm), text);
+    return make(
+        direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, text.distance_mm.value_or(distance_mm)),
+        text);
   }
 };
 

@@ -52,23 +52,13 @@ Result<double> parse_light_size(std::string_view text) {
       fmt::format("{} is out of range; give a light's diameter from 0 to {} degrees", text, kMaxLightSize_deg));
 }
 
-// The parts after the position: VALUE, COLOUR and SIZE; VALUE and COLOUR may be empty, the latter before a size only.
-Result<void> add_parts(const std::vector<std::string_view>& parts, LightText& light) {
-  if (parts.size() > 1 && !parts[1].empty()) {
-    const auto value = parse_light_value(parts[1]);
-    if (!value) return tl::unexpected(value.error());
-    light.value = *value;
-  }
-  if (parts.size() > 2 && !(parts[2].empty() && parts.size() > 3)) {
-    const auto colour = parse_light_colour(parts[2]);
-    if (!colour) return tl::unexpected(colour.error());
-    light.colour = *colour;
-  }
-  if (parts.size() > 3) {
-    const auto size_deg = parse_light_size(parts[3]);
-    if (!size_deg) return tl::unexpected(size_deg.error());
-    light.size_deg = *size_deg;
-  }
+// Reads a part of a light's text into its place. An empty VALUE is left out, and so is an empty part before another.
+template <class Parse, class To>
+Result<void> read_part(const std::vector<std::string_view>& parts, std::size_t k, Parse parse, To& to) {
+  if (k >= parts.size() || (parts[k].empty() && (k == 1 || k + 1 < parts.size()))) return {};
+  const auto value = parse(parts[k]);
+  if (!value) return tl::unexpected(value.error());
+  to = *value;
   return {};
 }
 
@@ -106,13 +96,17 @@ Result<LightColour> parse_light_colour(std::string_view text) {
 
 Result<LightText> parse_light(std::string_view text) {
   const auto parts = split(text, ':');
-  if (parts.size() > 4)
-    return invalid_argument(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE", text));
+  if (parts.size() > 5)
+    return invalid_argument(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE:DISTANCE", text));
   const auto position = parse_reals(parts[0], 2);
   if (!position) return tl::unexpected(position.error());
   LightText light;
   light.position = {(*position)[0], (*position)[1]};
-  if (const auto added = add_parts(parts, light); !added) return tl::unexpected(added.error());
+  for (const Result<void>& read :
+       {read_part(parts, 1, parse_light_value, light.value), read_part(parts, 2, parse_light_colour, light.colour),
+        read_part(parts, 3, parse_light_size, light.size_deg),
+        read_part(parts, 4, parse_distance_mm, light.distance_mm)})
+    if (!read) return tl::unexpected(read.error());
   return light;
 }
 

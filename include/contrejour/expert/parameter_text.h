@@ -65,12 +65,13 @@ struct LightColour {
 };
 [[nodiscard]] CONTREJOUR_API Result<LightColour> parse_light_colour(std::string_view text);
 
-// "A,B", "A,B:VALUE", "A,B:VALUE:COLOUR" or "A,B:VALUE:COLOUR:SIZE"; VALUE and COLOUR may be left empty.
+// "A,B:VALUE:COLOUR:SIZE:DISTANCE"; parts may be left out at the end, and may be empty before another one.
 struct LightText {
   Vec2 position;  // azimuth and elevation in degrees, or u and v
   std::optional<LightValue> value;
   std::optional<LightColour> colour;
-  std::optional<double> size_deg;  // diameter of a disc
+  std::optional<double> size_deg;     // diameter of a disc
+  std::optional<double> distance_mm;  // to the first vertex; may be infinite
 };
 [[nodiscard]] CONTREJOUR_API Result<LightText> parse_light(std::string_view text);
 

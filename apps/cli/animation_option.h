@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// --lights FILE: lights and parameters that change from frame to frame.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "contrejour/expert/animation.h"
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/result.h"
+
+namespace contrejour::cli {
+
+void add_animation_option(CLI::App& command, std::string& file);
+
+// The values of every frame. The command line overrides the file, and the file overrides the preset; lights of the
+// command line and of the file are added up.
+class FrameValues {
+ public:
+  // file: of --lights, or empty. command_line: as given; whole: with the preset's values too.
+  [[nodiscard]] static Result<FrameValues> create(const std::string& file, params::Values command_line,
+                                                  params::Values whole);
+
+  [[nodiscard]] params::Values at(int frame) const;
+  // For a picture without a number: the values of the first frame that has a key.
+  [[nodiscard]] params::Values of_still() const;
+  [[nodiscard]] bool may_change_lens() const { return animation_ && !animation_->parameters.empty(); }
+
+ private:
+  FrameValues() = default;
+
+  std::optional<Animation> animation_;
+  params::Values command_line_, whole_;
+};
+
+}  // namespace contrejour::cli

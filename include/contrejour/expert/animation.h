@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What changes over the frames of a shot: lights and parameters with keys, read from a file (docs/formats/lights.md).
+// Errors: Parse with file, line and remedy; Io. Thread-safety: plain values and pure functions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/export.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+// From one key to the next: the earlier one's value; a straight line; a curve without a corner at the keys, which rises
+// or falls only where they do.
+enum class Interpolation { Step, Linear, Smooth };
+
+struct Key {
+  int frame = 0;
+  std::vector<double> numbers;  // as many in each key
+  std::string text;  // in place of numbers; between keys, the earlier one's
+};
+
+// A value at each frame: constant before the first key and after the last.
+struct KeyedValue {
+  std::vector<Key> keys;  // in rising order, at least one
+  Interpolation between = Interpolation::Linear;
+};
+
+// The value as the command line writes it: a text, or numbers separated by commas.
+[[nodiscard]] CONTREJOUR_API std::string text_at(const KeyedValue& value, double frame);
+
+struct AnimatedLight {
+  std::string name;
+  bool by_direction = false;  // the position is azimuth and elevation in degrees; else u and v in the frame
+  KeyedValue position;
+  std::optional<KeyedValue> value, colour, size_deg, distance;  // without one, the common option's
+  std::optional<KeyedValue> on;  // "on" or "off"
+};
+
+struct Animation {
+  std::vector<std::pair<std::string, KeyedValue>> parameters;  // by their names (parameter.h)
+  std::vector<AnimatedLight> lights;
+};
+
+[[nodiscard]] CONTREJOUR_API Result<Animation> read_animation(std::string_view toml, const std::string& file);
+[[nodiscard]] CONTREJOUR_API Result<Animation> read_animation(const std::filesystem::path& file);
+
+// The parameters at a frame, lights aside.
+[[nodiscard]] CONTREJOUR_API params::Values parameters_at(const Animation& animation, double frame);
+
+// Adds the lights that are on at a frame to the values, as --light and --light-at.
+CONTREJOUR_API void add_lights_at(const Animation& animation, double frame, params::Values& values);
+
+// The first frame that has a key; 0 if there is none.
+[[nodiscard]] CONTREJOUR_API int first_key(const Animation& animation);
+
+}  // namespace contrejour
