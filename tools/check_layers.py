@@ -98,6 +98,7 @@ PUBLIC = {
     "expert/measured_flare.h": "measure",
     "expert/panorama.h": "measure",
     "expert/sweep.h": "measure",
+    "expert/fit_flare.h": "measure",
     "expert/sweep_geometry.h": "measure",
     "method_options.h": "render/planning",
     "expert/methods.h": "render/planning",

@@ -60,7 +60,9 @@ TEST_CASE("flare problem: gradients agree with central differences to 1e-5") {
   for (const double huber : {1e9, 2.0}) {
     FlareProblem problem(stations, flare);
     problem.huber = huber;
-    Eigen::VectorXd at = problem.layout.pack(flare);
+    problem.with_centre = true;
+    Eigen::VectorXd at(problem.layout.size() + 1);
+    at << problem.layout.pack(flare), 0.004;
     for (Eigen::Index k = 0; k < at.size(); ++k) at[k] *= 1.0 + 0.01 * std::sin(static_cast<double>(k));
     const NormalEquations equations = problem.equations(at);
     CHECK(equations.cost == doctest::Approx(problem.cost(at)).epsilon(1e-12));

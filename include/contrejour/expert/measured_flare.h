@@ -35,7 +35,8 @@ struct AngleCurve {
   Parity parity = Parity::Even;
   std::vector<double> coefficients;
 
-  [[nodiscard]] double operator()(double s) const;
+  [[nodiscard]] CONTREJOUR_API double operator()(double s) const;
+  [[nodiscard]] CONTREJOUR_API double derivative(double s) const;
 };
 
 // A ghost's parameters over the angle. Half axes: left = half_width - skew, right = half_width + skew; the control

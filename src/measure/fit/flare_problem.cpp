@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/tasks.h"
+#include "measure/model/flare_curves.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -17,8 +18,24 @@ struct GhostInStation {
   std::size_t index = 0;  // of the flare's ghosts
   GhostAtAngle at;
   double presence = 1.0;  // by which levels are multiplied: at the ends of a ghost's range
-  std::vector<GhostPixel> pixels;
+  GhostPixels pixels;
 };
+
+// A station's place if the optical centre were moved.
+struct StationPlace {
+  double s = 0;
+  StationFrame frame;
+};
+
+StationPlace place_of(const FitStation& station, double centre_shift) {
+  StationPlace place{station.s - centre_shift * station.frame.to_light.x, station.frame};
+  place.frame.pixels.centre_px.x += centre_shift * station.frame.pixels.focal_length_px;
+  if (place.s < 0.0) {
+    place.s = -place.s;
+    place.frame.to_light = place.frame.to_light * -1.0;
+  }
+  return place;
+}
 
 double presence_of(const MeasuredGhost& ghost, const GhostAtAngle& at, double s) {
   for (std::size_t c = 0; c < kChannels; ++c) {
@@ -28,12 +45,13 @@ double presence_of(const MeasuredGhost& ghost, const GhostAtAngle& at, double s)
   return 1.0;
 }
 
-std::vector<GhostInStation> ghosts_in(const MeasuredFlare& flare, const FitStation& station) {
+std::vector<GhostInStation> ghosts_in(const MeasuredFlare& flare, const StationPlace& station, bool with_derivatives) {
   std::vector<GhostInStation> ghosts;
   for (std::size_t k = 0; k < flare.ghosts.size(); ++k) {
     const auto at = ghost_at(flare.ghosts[k], station.s, flare.s_max);
     if (!at) continue;
-    ghosts.push_back({k, *at, presence_of(flare.ghosts[k], *at, station.s), ghost_pixels(*at, station.frame)});
+    ghosts.push_back(
+        {k, *at, presence_of(flare.ghosts[k], *at, station.s), ghost_pixels(*at, station.frame, with_derivatives)});
   }
   return ghosts;
 }
@@ -48,11 +66,14 @@ std::vector<double> model_of(const std::vector<GhostInStation>& ghosts, const Fi
   std::vector<double> model(station.rate.pixels.size(), 0.0);
   const double area = area_of_pixel(station);
   for (const GhostInStation& ghost : ghosts) {
-    for (const GhostPixel& pixel : ghost.pixels) {
+    for (const GhostPixel& pixel : ghost.pixels.near_border) {
       for (std::size_t c = 0; c < kChannels; ++c) {
         const double level = ghost.at.border[c] * pixel.weights.border + ghost.at.inside[c] * pixel.weights.inside;
         model[kChannels * pixel.index + c] += area * level;
       }
+    }
+    for (const std::uint32_t index : ghost.pixels.flat) {
+      for (std::size_t c = 0; c < kChannels; ++c) model[kChannels * index + c] += area * ghost.at.inside[c];
     }
   }
   return model;
@@ -94,6 +115,64 @@ CurveGradient gradient_of(const GhostInStation& ghost, const GhostPixel& pixel, 
   return gradient;
 }
 
+// A ghost at a pixel; without derivatives of its shape where its shade is flat.
+struct GhostAtPixel {
+  std::size_t ghost = 0;  // of the station's
+  const GhostPixel* near_border = nullptr;
+};
+
+// The derivatives of a ghost at a pixel: all of them, or that of the inside's level alone.
+struct PixelTerm {
+  Eigen::Index first = 0;   // the ghost's first row in the equations
+  Eigen::Index inside = 0;  // the row of the inside's level
+  bool flat = false;
+  double by_inside = 0;
+  CurveGradient gradient;  // unset where flat
+};
+
+void add_pair(const PixelTerm& a, const PixelTerm& b, double w, Eigen::MatrixXd& hessian) {
+  if (a.flat && b.flat) {
+    hessian(a.inside, b.inside) += w * a.by_inside * b.by_inside;
+  } else if (a.flat) {
+    hessian.row(a.inside).segment<kCurves>(b.first) += w * a.by_inside * b.gradient.transpose();
+  } else if (b.flat) {
+    hessian.col(b.inside).segment<kCurves>(a.first) += w * b.by_inside * a.gradient;
+  } else {
+    hessian.block<kCurves, kCurves>(a.first, b.first) += w * a.gradient * b.gradient.transpose();
+  }
+}
+
+PixelTerm term_of(const std::vector<GhostInStation>& ghosts, const GhostAtPixel& at, std::size_t channel, double area) {
+  const GhostInStation& ghost = ghosts[at.ghost];
+  PixelTerm term;
+  term.first = kCurves * static_cast<Eigen::Index>(at.ghost);
+  term.inside = term.first + static_cast<Eigen::Index>(kShapeCurves + kChannels + channel);
+  term.flat = at.near_border == nullptr;
+  term.by_inside = area * ghost.presence;
+  if (!term.flat) term.gradient = gradient_of(ghost, *at.near_border, channel, area);
+  return term;
+}
+
+void add_terms(const std::vector<PixelTerm>& terms, double w, double difference, NormalEquations& equations) {
+  for (std::size_t a = 0; a < terms.size(); ++a) {
+    if (terms[a].flat) {
+      equations.gradient[terms[a].inside] += w * difference * terms[a].by_inside;
+    } else {
+      equations.gradient.segment<kCurves>(terms[a].first) += w * difference * terms[a].gradient;
+    }
+    for (std::size_t b = a; b < terms.size(); ++b) add_pair(terms[a], terms[b], w, equations.hessian);
+  }
+}
+
+std::vector<std::vector<GhostAtPixel>> ghosts_at_pixels(const std::vector<GhostInStation>& ghosts, std::size_t pixels) {
+  std::vector<std::vector<GhostAtPixel>> at_pixel(pixels);
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    for (const GhostPixel& pixel : ghosts[g].pixels.near_border) at_pixel[pixel.index].push_back({g, &pixel});
+    for (const std::uint32_t index : ghosts[g].pixels.flat) at_pixel[index].push_back({g, nullptr});
+  }
+  return at_pixel;
+}
+
 // Normal equations of one station for the values of the curves of its ghosts, in the order of `ghosts`.
 NormalEquations station_equations(const std::vector<GhostInStation>& ghosts, const FitStation& station, double huber) {
   const auto size = kCurves * static_cast<Eigen::Index>(ghosts.size());
@@ -101,58 +180,62 @@ NormalEquations station_equations(const std::vector<GhostInStation>& ghosts, con
   NormalEquations equations{loss_of(model, station, huber), Eigen::VectorXd::Zero(size),
                             Eigen::MatrixXd::Zero(size, size)};
   const double area = area_of_pixel(station);
-  std::vector<std::vector<std::pair<Eigen::Index, const GhostPixel*>>> at_pixel(model.size() / kChannels);
-  for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    for (const GhostPixel& pixel : ghosts[g].pixels)
-      at_pixel[pixel.index].emplace_back(static_cast<Eigen::Index>(g), &pixel);
-  }
-  std::vector<CurveGradient> gradients;
+  const auto at_pixel = ghosts_at_pixels(ghosts, model.size() / kChannels);
+  std::vector<PixelTerm> terms;
   for (std::size_t index = 0; index < at_pixel.size(); ++index) {
-    const auto& here = at_pixel[index];
-    for (std::size_t c = 0; c < kChannels && !here.empty(); ++c) {
+    for (std::size_t c = 0; c < kChannels && !at_pixel[index].empty(); ++c) {
       const std::size_t k = kChannels * index + c;
       const auto weight = static_cast<double>(station.weight.pixels[k]);
       if (weight == 0.0) continue;
       const double difference = model[k] - static_cast<double>(station.rate.pixels[k]);
       const double w = weight * robust_term(difference, weight, huber).factor;
-      gradients.clear();
-      for (const auto& [g, pixel] : here)
-        gradients.push_back(gradient_of(ghosts[static_cast<std::size_t>(g)], *pixel, c, area));
-      for (std::size_t a = 0; a < here.size(); ++a) {
-        const Eigen::Index row = kCurves * here[a].first;
-        equations.gradient.segment<kCurves>(row) += w * difference * gradients[a];
-        for (std::size_t b = a; b < here.size(); ++b) {
-          equations.hessian.block<kCurves, kCurves>(row, kCurves * here[b].first) +=
-              w * gradients[a] * gradients[b].transpose();
-        }
-      }
+      terms.clear();
+      for (const GhostAtPixel& at : at_pixel[index]) terms.push_back(term_of(ghosts, at, c, area));
+      add_terms(terms, w, difference, equations);
     }
   }
   return equations;
 }
 
-// The chain rule from curves' values at a station to the coefficients.
-void add_station(const NormalEquations& station, const std::vector<GhostInStation>& ghosts,
-                 const ParameterLayout& layout, double s, NormalEquations& sum) {
-  sum.cost += station.cost;
-  std::vector<ParameterLayout::CurveTerms> terms;
-  for (const GhostInStation& ghost : ghosts) {
-    for (std::size_t curve = 0; curve < kGhostCurves; ++curve)
-      terms.push_back(layout.curve_terms(ghost.index, curve, s));
+// How a curve's value at a station depends on the unknowns.
+struct CurveUnknowns {
+  std::vector<Eigen::Index> index;
+  std::vector<double> term;
+};
+
+// The shift of the optical centre moves all pixels and changes the light's angle.
+CurveUnknowns unknowns_of(const FlareProblem& problem, const MeasuredFlare& flare, std::size_t ghost, std::size_t curve,
+                          const StationPlace& place) {
+  CurveUnknowns all;
+  const ParameterLayout::CurveTerms terms = problem.layout.curve_terms(ghost, curve, place.s);
+  for (std::size_t k = 0; k < terms.terms.size(); ++k) {
+    all.index.push_back(terms.first + static_cast<Eigen::Index>(k));
+    all.term.push_back(terms.terms[k]);
   }
-  for (std::size_t a = 0; a < terms.size(); ++a) {
-    for (std::size_t i = 0; i < terms[a].terms.size(); ++i) {
-      const Eigen::Index row = terms[a].first + static_cast<Eigen::Index>(i);
-      sum.gradient[row] += station.gradient[static_cast<Eigen::Index>(a)] * terms[a].terms[i];
+  if (problem.with_centre) {
+    const double by_s = curves_of(flare.ghosts[ghost])[curve]->derivative(place.s);
+    all.index.push_back(problem.layout.size());
+    all.term.push_back(place.frame.to_light.x * ((curve == 0 ? 1.0 : 0.0) - by_s));
+  }
+  return all;
+}
+
+// The chain rule from curves' values at a station to the unknowns.
+void add_station(const NormalEquations& station, const std::vector<CurveUnknowns>& unknowns, NormalEquations& sum) {
+  sum.cost += station.cost;
+  for (std::size_t a = 0; a < unknowns.size(); ++a) {
+    for (std::size_t i = 0; i < unknowns[a].index.size(); ++i) {
+      const Eigen::Index row = unknowns[a].index[i];
+      sum.gradient[row] += station.gradient[static_cast<Eigen::Index>(a)] * unknowns[a].term[i];
       // Blocks of a ghost with a later one stand above the diagonal only.
-      for (std::size_t b = a / kGhostCurves * kGhostCurves; b < terms.size(); ++b) {
+      for (std::size_t b = a / kGhostCurves * kGhostCurves; b < unknowns.size(); ++b) {
         const double value = station.hessian(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
         if (value == 0.0) continue;
         const bool same_ghost = a / kGhostCurves == b / kGhostCurves;
-        for (std::size_t j = 0; j < terms[b].terms.size(); ++j) {
-          const Eigen::Index column = terms[b].first + static_cast<Eigen::Index>(j);
-          sum.hessian(row, column) += value * terms[a].terms[i] * terms[b].terms[j];
-          if (!same_ghost) sum.hessian(column, row) += value * terms[a].terms[i] * terms[b].terms[j];
+        for (std::size_t j = 0; j < unknowns[b].index.size(); ++j) {
+          const Eigen::Index column = unknowns[b].index[j];
+          sum.hessian(row, column) += value * unknowns[a].term[i] * unknowns[b].term[j];
+          if (!same_ghost) sum.hessian(column, row) += value * unknowns[a].term[i] * unknowns[b].term[j];
         }
       }
     }
@@ -179,12 +262,29 @@ void add_prior(const FlareProblem& problem, const Eigen::VectorXd& at, const Eig
 
 }  // namespace
 
+void move_centre(FitStation& station, double centre_shift) {
+  const StationPlace place = place_of(station, centre_shift);
+  station.s = place.s;
+  station.frame = place.frame;
+}
+
+Image model_image(const MeasuredFlare& flare, const FitStation& station) {
+  const std::vector<double> model = model_of(ghosts_in(flare, place_of(station, 0.0), false), station);
+  Image image(station.rate.width, station.rate.height);
+  std::transform(model.begin(), model.end(), image.pixels.begin(), [](double v) { return static_cast<float>(v); });
+  return image;
+}
+
 double FlareProblem::cost(const Eigen::VectorXd& unknowns) const {
+  const double shift = with_centre ? unknowns[layout.size()] : 0.0;
   const MeasuredFlare now = layout.unpack(flare, unknowns);
   double sum = 0.0;
   ordered_pipeline(
       stations.size(), context,
-      [&](std::size_t k) { return loss_of(model_of(ghosts_in(now, stations[k]), stations[k]), stations[k], huber); },
+      [&](std::size_t k) {
+        const auto ghosts = ghosts_in(now, place_of(stations[k], shift), false);
+        return loss_of(model_of(ghosts, stations[k]), stations[k], huber);
+      },
       [&](std::size_t /*k*/, double loss) { sum += loss; });
   NormalEquations prior;
   add_prior(*this, unknowns, layout.pack(flare), prior);
@@ -194,19 +294,27 @@ double FlareProblem::cost(const Eigen::VectorXd& unknowns) const {
 NormalEquations FlareProblem::equations(const Eigen::VectorXd& unknowns) const {
   struct OfStation {
     std::vector<GhostInStation> ghosts;
+    std::vector<CurveUnknowns> unknowns;
     NormalEquations equations;
   };
   const MeasuredFlare now = layout.unpack(flare, unknowns);
-  NormalEquations sum{0.0, Eigen::VectorXd::Zero(layout.size()), Eigen::MatrixXd::Zero(layout.size(), layout.size())};
+  const double shift = with_centre ? unknowns[layout.size()] : 0.0;
+  const Eigen::Index size = unknowns.size();
+  NormalEquations sum{0.0, Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   ordered_pipeline(
       stations.size(), context,
       [&](std::size_t k) {
         OfStation one;
-        one.ghosts = ghosts_in(now, stations[k]);
+        const StationPlace place = place_of(stations[k], shift);
+        one.ghosts = ghosts_in(now, place, true);
+        for (const GhostInStation& ghost : one.ghosts) {
+          for (std::size_t curve = 0; curve < kGhostCurves; ++curve)
+            one.unknowns.push_back(unknowns_of(*this, now, ghost.index, curve, place));
+        }
         one.equations = station_equations(one.ghosts, stations[k], huber);
         return one;
       },
-      [&](std::size_t k, const OfStation& one) { add_station(one.equations, one.ghosts, layout, stations[k].s, sum); });
+      [&](std::size_t /*k*/, const OfStation& one) { add_station(one.equations, one.unknowns, sum); });
   add_prior(*this, unknowns, layout.pack(flare), sum);
   return sum;
 }

@@ -23,6 +23,12 @@ struct FitStation {
   Image weight;  // inverse variances; 0: not to be fitted
 };
 
+// Moves the optical centre along the picture's rows, by a tangent; the light's angle changes, too.
+void move_centre(FitStation& station, double centre_shift);
+
+// A flare's picture as the fit computes it.
+[[nodiscard]] Image model_image(const MeasuredFlare& flare, const FitStation& station);
+
 struct FlareProblem {
   FlareProblem(std::span<const FitStation> all, MeasuredFlare model)
       : stations(all), flare(std::move(model)), layout(flare) {}
@@ -33,6 +39,9 @@ struct FlareProblem {
   // Slopes are barely determined where a fade is narrow: each counts as measured once, as it was, with this error.
   double slope_error = 3.0;
   double huber = 3.0;       // standard deviations from which residuals count linearly
+  // The light's images alone determine the optical centre badly along their path; ghosts are symmetric about it. If
+  // set, there is one more unknown, the last: the centre's shift as a tangent.
+  bool with_centre = false;
   Context context;
 
   [[nodiscard]] double cost(const Eigen::VectorXd& unknowns) const;

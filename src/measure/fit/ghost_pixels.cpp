@@ -40,25 +40,73 @@ std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, co
   return by_shape;
 }
 
-}  // namespace
+// A ghost in a station's pixels.
+struct PlacedShape {
+  const GhostAtAngle& ghost;
+  const StationFrame& frame;
+  Vec2 along;        // to the light, in pixels, y down
+  double pixel = 0;  // its width as a tangent
+  double reach_out = 0, reach_in = 0;  // distances beyond which the shade is constant over a pixel
 
-std::vector<GhostPixel> ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame) {
-  const double scale = frame.pixels.focal_length_px, pixel = 1.0 / scale;
-  const double reach = ghost.shade.fade_out + 0.5 * pixel;
-  const double radius =
-      std::hypot(std::max(ghost.outline.left, ghost.outline.right), ghost.outline.half_height) + reach;
-  const Vec2 along{frame.to_light.x, -frame.to_light.y};  // in pixels, y down
-  const Vec2 origin = frame.pixels.centre_px + along * (scale * ghost.outline.centre);
-  const PixelRange rows = range_of(origin.y - scale * radius, origin.y + scale * radius, frame.pixels.height);
-  const PixelRange columns = range_of(origin.x - scale * radius, origin.x + scale * radius, frame.pixels.width);
-  std::vector<GhostPixel> pixels;
+  [[nodiscard]] OutlinePoint nearest(double x, double y) const {
+    const Vec2 offset = (Vec2{x, y} - frame.pixels.centre_px) * pixel;
+    return nearest_point(ghost.outline, {dot(offset, along), cross(along, offset)});
+  }
+  [[nodiscard]] std::uint32_t index(int x, int y) const {
+    return static_cast<std::uint32_t>(y * frame.pixels.width + x);
+  }
+};
+
+constexpr int kBlockSide = 8;
+
+// The pixels of a block: distances change by no more than one moves, so that of its middle may decide for all.
+void add_block(const PlacedShape& shape, PixelRange columns, PixelRange rows, bool with_derivatives,
+               GhostPixels& pixels) {
+  const double half_width = 0.5 * (columns.last - columns.first), half_height = 0.5 * (rows.last - rows.first);
+  const double radius = shape.pixel * std::hypot(half_width, half_height);
+  const double middle = shape.nearest(columns.first + half_width, rows.first + half_height).distance;
+  if (middle > shape.reach_out + radius) return;
+  const bool all_flat = middle < -(shape.reach_in + radius);
   for (int y = rows.first; y < rows.last; ++y) {
     for (int x = columns.first; x < columns.last; ++x) {
-      const Vec2 offset = (Vec2{x + 0.5, y + 0.5} - frame.pixels.centre_px) * pixel;
-      const OutlinePoint nearest = nearest_point(ghost.outline, {dot(offset, along), cross(along, offset)});
-      if (nearest.distance > reach) continue;
-      pixels.push_back({static_cast<std::uint32_t>(y * frame.pixels.width + x),
-                        shade_weights(ghost.shade, nearest.distance, pixel), by_shape_of(ghost, nearest, pixel)});
+      if (!shape.frame.is_sampled(x, y)) continue;
+      if (all_flat) {
+        pixels.flat.push_back(shape.index(x, y));
+        continue;
+      }
+      const OutlinePoint nearest = shape.nearest(x + 0.5, y + 0.5);
+      if (nearest.distance > shape.reach_out) continue;
+      if (nearest.distance < -shape.reach_in) {
+        pixels.flat.push_back(shape.index(x, y));
+        continue;
+      }
+      pixels.near_border.push_back(
+          {shape.index(x, y), shade_weights(shape.ghost.shade, nearest.distance, shape.pixel), {}});
+      if (with_derivatives) pixels.near_border.back().by_shape = by_shape_of(shape.ghost, nearest, shape.pixel);
+    }
+  }
+}
+
+}  // namespace
+
+GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, bool with_derivatives) {
+  const double scale = frame.pixels.focal_length_px, pixel = 1.0 / scale;
+  const PlacedShape shape{ghost,
+                          frame,
+                          {frame.to_light.x, -frame.to_light.y},
+                          pixel,
+                          ghost.shade.fade_out + 0.5 * pixel,
+                          ghost.shade.fade_in + 0.5 * pixel};
+  const double radius =
+      std::hypot(std::max(ghost.outline.left, ghost.outline.right), ghost.outline.half_height) + shape.reach_out;
+  const Vec2 origin = frame.pixels.centre_px + shape.along * (scale * ghost.outline.centre);
+  const PixelRange rows = range_of(origin.y - scale * radius, origin.y + scale * radius, frame.pixels.height);
+  const PixelRange columns = range_of(origin.x - scale * radius, origin.x + scale * radius, frame.pixels.width);
+  GhostPixels pixels;
+  for (int y = rows.first; y < rows.last; y += kBlockSide) {
+    for (int x = columns.first; x < columns.last; x += kBlockSide) {
+      add_block(shape, {x, std::min(x + kBlockSide, columns.last)}, {y, std::min(y + kBlockSide, rows.last)},
+                with_derivatives, pixels);
     }
   }
   return pixels;

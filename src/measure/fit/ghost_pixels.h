@@ -17,6 +17,10 @@ inline constexpr std::size_t kShapeCurves = 10;  // of curves_of(): all but the 
 struct StationFrame {
   TangentFrame pixels;
   Vec2 to_light{1.0, 0.0};  // unit, y up
+  // A fit may take one pixel of so many, evenly spread: those for which x + 2 y is a multiple.
+  int sampled_every = 1;
+
+  [[nodiscard]] bool is_sampled(int x, int y) const { return (x + 2 * y) % sampled_every == 0; }
 };
 
 struct GhostPixel {
@@ -25,7 +29,12 @@ struct GhostPixel {
   std::array<ShadeWeights, kShapeCurves> by_shape;  // derivatives with respect to the values of curves 0..9
 };
 
-// In rising order of their indices.
-[[nodiscard]] std::vector<GhostPixel> ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame);
+// Most pixels of a ghost lie where its shade is the inside's level alone, and depend on no shape parameter.
+struct GhostPixels {
+  std::vector<GhostPixel> near_border;
+  std::vector<std::uint32_t> flat;  // indices
+};
+
+[[nodiscard]] GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, bool with_derivatives);
 
 }  // namespace contrejour::inline internal

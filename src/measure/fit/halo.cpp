@@ -3,30 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kQuantile = 0.3;      // of a ring's pixels: ghosts only add light, so the low ones are the halo
-constexpr double kRingWidth = 1.08;    // outer over inner radius, at least a pixel wide
-constexpr double kUncertainty = 0.03;  // of the halo, relative: it is not quite the same in all directions
+constexpr double kRingWidth = 1.06;    // outer over inner radius, at least a pixel wide
+constexpr double kUncertainty = 0.01;  // of the halo, relative: it is not quite the same everywhere
+constexpr double kOffset_px = 0.4;  // colours of a Bayer block are not at one place
 constexpr std::size_t kFewPixels = 12;
+constexpr double kFewStations = 0.2;  // of all stations: a distance that fewer show has no level
 
-// The halo's level on rings about the light, of rising radii; between them it is interpolated.
-struct Profile {
-  std::vector<double> radius_px, level;
-
-  [[nodiscard]] double at(double r) const {
-    if (radius_px.empty()) return 0.0;
-    const auto next = std::ranges::upper_bound(radius_px, r);
-    if (next == radius_px.begin()) return level.front();
-    if (next == radius_px.end()) return level.back();
-    const auto k = static_cast<std::size_t>(next - radius_px.begin());
-    const double t = (r - radius_px[k - 1]) / (radius_px[k] - radius_px[k - 1]);
-    return (1.0 - t) * level[k - 1] + t * level[k];
-  }
-};
+using Profile = std::vector<double>;  // a level of each ring; NaN: too few pixels
 
 std::vector<double> ring_edges(double from, double to) {
   std::vector<double> edges{std::max(from, 1.0)};
@@ -34,7 +21,8 @@ std::vector<double> ring_edges(double from, double to) {
   return edges;
 }
 
-double quantile_of(std::vector<float>& values, double q) {
+template <class T>
+double quantile_of(std::vector<T>& values, double q) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return static_cast<double>(*at);
@@ -42,40 +30,82 @@ double quantile_of(std::vector<float>& values, double q) {
 
 double distance_of(int x, int y, Vec2 light_px) { return std::hypot(x + 0.5 - light_px.x, y + 0.5 - light_px.y); }
 
-Profile profile_of(const FitStation& station, Vec2 light_px, double masked_px, int channel) {
-  const std::vector<double> edges = ring_edges(masked_px, std::hypot(station.rate.width, station.rate.height));
-  std::vector<std::vector<float>> rings(edges.size());
+std::array<Profile, 3> profiles_of(const FitStation& station, Vec2 light_px, std::span<const double> edges, double q) {
+  std::array<std::vector<std::vector<float>>, 3> rings;
+  rings.fill(std::vector<std::vector<float>>(edges.size()));
   for (int y = 0; y < station.rate.height; ++y) {
     for (int x = 0; x < station.rate.width; ++x) {
-      if (station.weight.at(x, y, channel) == 0.0F) continue;
       const auto ring = std::ranges::upper_bound(edges, distance_of(x, y, light_px));
-      if (ring != edges.begin() && ring != edges.end()) {
-        rings[static_cast<std::size_t>(ring - edges.begin())].push_back(station.rate.at(x, y, channel));
+      if (ring == edges.begin() || ring == edges.end()) continue;
+      for (int c = 0; c < 3; ++c) {
+        if (station.weight.at(x, y, c) > 0.0F) {
+          rings[static_cast<std::size_t>(c)][static_cast<std::size_t>(ring - edges.begin())].push_back(
+              station.rate.at(x, y, c));
+        }
       }
     }
   }
-  Profile profile;
-  for (std::size_t k = 1; k < edges.size(); ++k) {
-    if (rings[k].size() < kFewPixels) continue;
-    profile.radius_px.push_back(0.5 * (edges[k - 1] + edges[k]));
-    profile.level.push_back(std::max(quantile_of(rings[k], kQuantile), 0.0));
+  std::array<Profile, 3> profiles;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (auto& ring : rings[c]) profiles[c].push_back(ring.size() < kFewPixels ? std::nan("") : quantile_of(ring, q));
   }
-  return profile;
+  return profiles;
 }
 
 }  // namespace
 
-void subtract_halo(FitStation& station, Vec2 light_px, double masked_px) {
-  for (int c = 0; c < 3; ++c) {
-    const Profile profile = profile_of(station, light_px, masked_px, c);
-    for (int y = 0; y < station.rate.height; ++y) {
-      for (int x = 0; x < station.rate.width; ++x) {
-        const double r = distance_of(x, y, light_px), halo = profile.at(r);
+double HaloProfile::at(double r_px, std::size_t channel) const {
+  if (radius_px.empty()) return 0.0;
+  const auto next = std::ranges::upper_bound(radius_px, r_px);
+  if (next == radius_px.begin()) return level[channel].front();
+  if (next == radius_px.end()) return level[channel].back();
+  const auto k = static_cast<std::size_t>(next - radius_px.begin());
+  const double t = (r_px - radius_px[k - 1]) / (radius_px[k] - radius_px[k - 1]);
+  return (1.0 - t) * level[channel][k - 1] + t * level[channel][k];
+}
+
+HaloProfile halo_of(std::span<const FitStation> stations, std::span<const Vec2> lights_px,
+                    const HaloSettings& settings) {
+  HaloProfile halo;
+  if (stations.empty()) return halo;
+  const Image& first = stations.front().rate;
+  const std::vector<double> edges = ring_edges(settings.masked_px, std::hypot(first.width, first.height));
+  std::vector<std::array<Profile, 3>> profiles;
+  for (std::size_t k = 0; k < stations.size(); ++k)
+    profiles.push_back(profiles_of(stations[k], lights_px[k], edges, settings.quantile));
+  const double few = std::max(1.0, kFewStations * static_cast<double>(stations.size()));
+  for (std::size_t ring = 1; ring < edges.size(); ++ring) {
+    std::array<std::vector<double>, 3> levels;
+    for (const auto& profile : profiles) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (std::isfinite(profile[c][ring])) levels[c].push_back(profile[c][ring]);
+      }
+    }
+    if (std::ranges::any_of(levels, [&](const auto& l) { return static_cast<double>(l.size()) < few; })) continue;
+    halo.radius_px.push_back(0.5 * (edges[ring - 1] + edges[ring]));
+    for (std::size_t c = 0; c < 3; ++c) halo.level[c].push_back(quantile_of(levels[c], settings.quantile));
+  }
+  for (auto& level : halo.level) {  // it falls with the distance, to 0
+    for (std::size_t k = 1; k < level.size(); ++k) level[k] = std::min(level[k], level[k - 1]);
+    const double farthest = level.empty() ? 0.0 : level.back();
+    for (double& value : level) value -= farthest;
+  }
+  return halo;
+}
+
+void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px) {
+  for (int y = 0; y < station.rate.height; ++y) {
+    for (int x = 0; x < station.rate.width; ++x) {
+      const double r = distance_of(x, y, light_px);
+      for (int c = 0; c < 3; ++c) {
+        const double level = halo.at(r, static_cast<std::size_t>(c));
         float& weight = station.weight.at(x, y, c);
-        station.rate.at(x, y, c) -= static_cast<float>(halo);
+        station.rate.at(x, y, c) -= static_cast<float>(level);
         if (r < masked_px) weight = 0.0F;
         if (weight > 0.0F) {
-          const double uncertain = kUncertainty * halo;
+          const double slope =
+              halo.at(r - 0.5, static_cast<std::size_t>(c)) - halo.at(r + 0.5, static_cast<std::size_t>(c));
+          const double uncertain = kUncertainty * level + kOffset_px * slope;
           weight = static_cast<float>(1.0 / (1.0 / static_cast<double>(weight) + uncertain * uncertain));
         }
       }

@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light scattered about a light's own image, which ghosts are fitted without.
+// Light scattered about a light's own image, which ghosts are fitted without. It moves with the light, as a ghost of
+// speed 1 would, and is the same at every station; ghosts of other speeds leave each of its places at some station.
 // Thread-safety: pure functions.
 #pragma once
+
+#include <array>
+#include <span>
+#include <vector>
 
 #include "contrejour/expert/vec.h"
 #include "measure/fit/flare_problem.h"
 
 namespace contrejour::inline internal {
 
-// Subtracts from each channel a function of the distance from the light's image: a low quantile over all directions,
-// most of which no ghost covers. What the subtraction leaves uncertain is added to the variance. Pixels within
-// `masked_px` of the image get no weight.
-void subtract_halo(FitStation& station, Vec2 light_px, double masked_px);
+// The halo's level at rising distances from the light; between them it is interpolated. It ends at 0, because a level
+// that is the same everywhere cannot be told from a ghost larger than the picture.
+struct HaloProfile {
+  std::vector<double> radius_px;
+  std::array<std::vector<double>, 3> level;
+
+  [[nodiscard]] double at(double r_px, std::size_t channel) const;
+};
+
+struct HaloSettings {
+  double masked_px = 0;  // about the light: not measured
+  // Of a ring's pixels, and of the stations: ghosts only add light, so low ones are the halo. Where ghosts have been
+  // subtracted, the median is nearer.
+  double quantile = 0.25;
+};
+
+// From pictures with the halo in them. lights_px: of the light's image in each.
+[[nodiscard]] HaloProfile halo_of(std::span<const FitStation> stations, std::span<const Vec2> lights_px,
+                                  const HaloSettings& settings);
+
+// Subtracts the halo, and adds what it leaves uncertain to the variance. Pixels within `masked_px` of the light get no
+// weight.
+void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px);
 
 }  // namespace contrejour::inline internal

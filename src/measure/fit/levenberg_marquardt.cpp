@@ -10,6 +10,7 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr double kFirstDamping = 1e-3;  // of the Hessian's diagonal
+constexpr int kSmallSteps = 3;  // in a row: one may be small because damping was high
 constexpr double kMaxDamping = 1e12;
 constexpr double kMinDamping = 1e-12;  // keeps parameters that act alike from drifting apart
 
@@ -55,15 +56,16 @@ LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::Vect
   }
   NormalEquations equations = problem.equations(result.parameters);
   double damping = kFirstDamping, growth = 2.0;
+  int small_steps = 0;
   while (result.iterations < settings.max_iterations && damping < kMaxDamping) {
     ++result.iterations;
     const Eigen::VectorXd is_free = free_parameters(problem, result.parameters, equations.gradient);
     const Eigen::VectorXd next = within_bounds(problem, result.parameters + damped_step(equations, is_free, damping));
     const Eigen::VectorXd step = next - result.parameters;
     const double predicted = -(equations.gradient.dot(step) + 0.5 * step.dot(equations.hessian * step));
-    const double cost = problem.cost(next);
-    const double decrease = equations.cost - cost;
-    if (!(decrease > 0.0) || !std::isfinite(cost)) {
+    NormalEquations trial = problem.equations(next);
+    const double decrease = equations.cost - trial.cost;
+    if (!(decrease > 0.0) || !std::isfinite(trial.cost)) {
       if (predicted <= settings.min_relative_decrease * equations.cost) {
         result.converged = true;
         break;
@@ -77,8 +79,9 @@ LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::Vect
     const double gain = predicted > 0.0 ? decrease / predicted : 1.0;
     damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3));
     growth = 2.0;
-    equations = problem.equations(result.parameters);
-    if (relative < settings.min_relative_decrease) {
+    equations = std::move(trial);
+    small_steps = relative < settings.min_relative_decrease ? small_steps + 1 : 0;
+    if (small_steps >= kSmallSteps) {
       result.converged = true;
       break;
     }

@@ -67,6 +67,16 @@ double AngleCurve::operator()(double s) const {
   return parity == Parity::Odd ? value * s : value;
 }
 
+double AngleCurve::derivative(double s) const {
+  const int step = parity == Parity::None ? 1 : 2, first = parity == Parity::Odd ? 1 : 0;
+  double value = 0.0;
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    const int power = first + step * static_cast<int>(k);
+    if (power > 0) value += power * coefficients[k] * std::pow(s, power - 1);
+  }
+  return value;
+}
+
 Result<void> check_flare(const MeasuredFlare& flare) {
   if (!(flare.s_max > 0.0 && std::isfinite(flare.s_max))) {
     return invalid_argument(fmt::format("s_max must be above 0: {:g}", flare.s_max));

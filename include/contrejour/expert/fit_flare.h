@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// From pictures of a lens turned through a light to a flare that plays back: the ghosts are found, then fitted to all
+// angles at once. No ghost is placed by hand and no prescription is needed.
+// Source: the model is walch2018 3.2. Differs: the paper's coordinate descent from picture to picture is replaced by
+// Levenberg-Marquardt over all pictures with analytic derivatives (docs/physics/measured-flare.md).
+// Units: as in measured_flare.h. Errors: InvalidArgument, Cancelled, those of the pictures. Thread-safety: pure
+// functions; the same bits for any number of threads.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/expert/capture.h"
+#include "contrejour/expert/measured_flare.h"
+#include "contrejour/expert/sweep_geometry.h"
+#include "contrejour/export.h"
+#include "contrejour/result.h"
+
+namespace contrejour {
+
+// The stations of a sweep. A picture is asked for once, and kept in reduced size only; pictures may be asked for from
+// several threads at once, in any order.
+struct FlareSweep {
+  std::vector<double> angles_rad;  // of the head, as for the geometry
+  std::function<Result<CapturedImage>(std::size_t station)> picture;
+  // Of the raw exposures, whose red and blue pixels lie beside the middle of a block: they are shifted there. None: the
+  // pictures' channels lie on one another.
+  std::optional<BayerPattern> pattern = std::nullopt;
+  Rgb light{1, 1, 1};  // the sum of the light's direct image over the pixels of such a picture; its levels' unit
+};
+
+struct FlareFitOptions {
+  int max_ghosts = 16;
+  // A ghost's edge must stand out by so many times the spread of what other places of the pictures show. Candidates
+  // that do are kept only if the fit to the pictures improves by more than chance.
+  double min_contrast = 2.0;
+  int max_width = 320;  // pictures are reduced by whole numbers to at most this width
+  double model_error = 0.1;  // of a pixel's value: what the model is not expected to describe
+  double huber = 3.0;  // standard deviations from which residuals count linearly
+};
+
+// A disc that moves with the light: the start of a fit.
+struct FoundGhost {
+  double speed = 0;  // of its centre over that of the light's image
+  double radius = 0;  // on the axis, as a tangent
+  double bend = 0, growth = 0;  // for a light at s: centre = speed * s + bend * s^3, radius * (1 + growth * s^2)
+  double first = 0, last = 0;  // tangents of the light's angle between which it is seen
+  double contrast = 0;  // over the usual spread
+};
+
+// The progress of a fit, for comparison between methods. An image evaluation computes the model of one picture, with
+// its derivatives where they are analytic.
+struct FitProgress {
+  double image_evaluations = 0;
+  double cost = 0;
+};
+
+struct FittedFlare {
+  MeasuredFlare flare;
+  // Optical centre of the pictures: the ghosts determine it better than the light's images do.
+  Vec2 centre_px;
+  // Of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil").
+  std::vector<FoundGhost> found;
+  std::vector<FitProgress> progress;  // of the last fit
+  double image_evaluations = 0;  // in all
+  double nrmse = 0;  // RMS of the residuals over that of the pictures without halo, where they stand out of the noise
+  std::vector<std::string> warnings;
+};
+
+// A flare without ghosts, with a warning, if none is found. Errors: fewer than five stations, pictures that differ in
+// size, angles whose number is not the pictures'.
+[[nodiscard]] CONTREJOUR_API Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geometry,
+                                                           const FlareFitOptions& options = {},
+                                                           const Context& context = {});
+
+}  // namespace contrejour

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/find/find_ghosts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/tasks.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+constexpr int kSpokes = 14;             // places around a circle where the step is measured
+constexpr double kOverCircle = 0.3;     // the quantile of the steps around the circle
+constexpr double kOverStations = 0.2;   // and over the stations
+constexpr double kVisibleSpokes = 0.4;  // of all, for a station to count
+constexpr std::size_t kMinStations = 5;
+constexpr double kUnclear = 3.0;  // times the floor: pixels with a larger error are not searched
+constexpr int kRefinements = 24;
+constexpr double kUnclearPart = 0.15;
+constexpr double kRadiusRatio = 1.06;
+constexpr std::size_t kMaxPictures = 16;
+constexpr double kLightSpeed_px = 4.0;  // ghosts that stay so near the light's image cannot be told from its halo
+constexpr double kMinRadius_px = 1.5, kMaxRadius = 0.75;  // of the picture's width
+constexpr std::array<double, 2> kStepHalf_px{1.5, 4.0};  // from the circle to where values are taken
+constexpr double kSameSpeed_px = 2.0, kSameRadius = 0.06;  // discs nearer than these are the same
+
+struct Spokes {
+  std::array<double, kSpokes> x{}, y{};
+};
+
+Spokes spokes() {
+  Spokes all;
+  for (int k = 0; k < kSpokes; ++k) {
+    const double angle = 2.0 * std::numbers::pi * (k + 0.5) / kSpokes;
+    all.x[static_cast<std::size_t>(k)] = std::cos(angle);
+    all.y[static_cast<std::size_t>(k)] = std::sin(angle);
+  }
+  return all;
+}
+
+// Between pixels; NaN outside the picture.
+float value_at(const Image& image, double x, double y) {
+  x -= 0.5;
+  y -= 0.5;
+  if (!(x >= 0.0 && y >= 0.0 && x < image.width - 1 && y < image.height - 1)) return std::nanf("");
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const auto u = static_cast<float>(x - left), v = static_cast<float>(y - top);
+  const float* at = &image.pixels[static_cast<std::size_t>(top) * static_cast<std::size_t>(image.width) +
+                                  static_cast<std::size_t>(left)];
+  const float* below = at + image.width;
+  return (1.0F - v) * ((1.0F - u) * at[0] + u * at[1]) + v * ((1.0F - u) * below[0] + u * below[1]);
+}
+
+// The step across a circle in one picture, or NaN where too little of it is seen.
+double step_across(const SearchPicture& picture, const Spokes& all, Vec2 centre_px, double radius_px, double half_px) {
+  std::array<float, kSpokes> steps{};
+  std::size_t seen = 0;
+  const double inner = std::max(radius_px - half_px, 0.0), outer = radius_px + half_px;
+  for (std::size_t k = 0; k < kSpokes; ++k) {
+    const float outside = value_at(picture.value, centre_px.x + outer * all.x[k], centre_px.y + outer * all.y[k]);
+    if (std::isnan(outside)) continue;
+    const float inside = value_at(picture.value, centre_px.x + inner * all.x[k], centre_px.y + inner * all.y[k]);
+    if (!std::isnan(inside)) steps[seen++] = inside - outside;
+  }
+  if (static_cast<double>(seen) < kVisibleSpokes * kSpokes) return std::nan("");
+  const auto at = steps.begin() + static_cast<std::ptrdiff_t>(kOverCircle * static_cast<double>(seen));
+  std::nth_element(steps.begin(), at, steps.begin() + static_cast<std::ptrdiff_t>(seen));
+  return static_cast<double>(*at);
+}
+
+struct StationStep {
+  double s = 0, step = 0;
+};
+
+// A candidate, and what all stations together show there, which may be below 0.
+struct Disc {
+  FoundGhost found;
+  double signed_contrast = 0;
+};
+
+// The best range of stations from the axis outwards: a low quantile of their steps, times the root of their number.
+Disc over_stations(std::vector<StationStep>& steps) {
+  Disc disc;
+  FoundGhost& best = disc.found;
+  std::ranges::sort(steps, {}, &StationStep::s);
+  std::vector<double> sorted;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    sorted.insert(std::ranges::upper_bound(sorted, steps[k].step), steps[k].step);
+    const std::size_t count = k + 1;
+    if (count < kMinStations) continue;
+    const double low = sorted[static_cast<std::size_t>(kOverStations * static_cast<double>(count))];
+    const double contrast = low * std::sqrt(static_cast<double>(count));
+    disc.signed_contrast = contrast;
+    if (contrast > best.contrast) {
+      best.contrast = contrast;
+      best.first = steps.front().s;
+      best.last = steps[k].s;
+    }
+  }
+  return disc;
+}
+
+Disc disc_contrast(std::span<const SearchPicture> pictures, const Spokes& all, const FoundGhost& candidate) {
+  Disc best;
+  const double start_px = candidate.radius * pictures.front().frame.pixels.focal_length_px;
+  for (const double half_px : kStepHalf_px) {
+    if (half_px > std::max(1.5, 0.5 * start_px)) break;
+    std::vector<StationStep> steps;
+    for (const SearchPicture& picture : pictures) {
+      const TangentFrame& frame = picture.frame.pixels;
+      const double s = picture.s, s2 = s * s;
+      const Vec2 along{picture.frame.to_light.x, -picture.frame.to_light.y};
+      const double centre = s * (candidate.speed + candidate.bend * s2);
+      const double step = step_across(picture, all, frame.centre_px + along * (centre * frame.focal_length_px),
+                                      std::max(start_px * (1.0 + candidate.growth * s2), kMinRadius_px), half_px);
+      if (!std::isnan(step)) steps.push_back({s, step});
+    }
+    const Disc disc = over_stations(steps);
+    if (half_px == kStepHalf_px.front() || disc.found.contrast > best.found.contrast) best = disc;
+  }
+  const double contrast = best.found.contrast, first = best.found.first, last = best.found.last;
+  best.found = candidate;
+  best.found.contrast = contrast;
+  best.found.first = first;
+  best.found.last = last;
+  return best;
+}
+
+// A pattern search for the speed, its bend, the radius and its growth of the highest contrast.
+FoundGhost refined(std::span<const SearchPicture> pictures, const Spokes& all, FoundGhost best, double reach_px) {
+  const double s_max = reach_px / pictures.front().frame.pixels.focal_length_px;
+  std::array<double, 4> step{1.0 / reach_px, 2.0 / (reach_px * s_max * s_max), 0.05 * best.radius,
+                             0.1 / (s_max * s_max)};
+  for (int round = 0; round < kRefinements; ++round) {
+    bool better = false;
+    for (std::size_t k = 0; k < step.size(); ++k) {
+      for (const double sign : {-1.0, 1.0}) {
+        FoundGhost next = best;
+        const std::array<double*, 4> values{&next.speed, &next.bend, &next.radius, &next.growth};
+        *values[k] += sign * step[k];
+        next = disc_contrast(pictures, all, next).found;
+        if (next.contrast <= best.contrast) continue;
+        best = next;
+        better = true;
+      }
+    }
+    if (!better) {
+      for (double& s : step) s *= 0.5;
+    }
+  }
+  return best;
+}
+
+std::vector<double> radii_px(double width) {
+  std::vector<double> radii{kMinRadius_px};
+  while (radii.back() < kMaxRadius * width) radii.push_back(std::max(radii.back() * kRadiusRatio, radii.back() + 0.5));
+  return radii;
+}
+
+bool is_same(const FoundGhost& a, const FoundGhost& b, double reach_px, double focal_length_px) {
+  return std::abs(a.speed - b.speed) * reach_px < kSameSpeed_px &&
+         std::abs(a.radius - b.radius) < std::max(kSameRadius * b.radius, 1.5 / focal_length_px);
+}
+
+// The spread of what the pictures show where there is no disc: of all candidates, nearly all of which are none.
+double usual_contrast(std::vector<double> contrasts) {
+  if (contrasts.size() < 8) return 0.0;
+  std::ranges::sort(contrasts);
+  return contrasts[contrasts.size() / 2] - contrasts[contrasts.size() / 6];
+}
+
+// Evenly spaced ones of all pictures.
+std::vector<SearchPicture> few_of(std::span<const SearchPicture> pictures) {
+  const std::size_t step = (pictures.size() + kMaxPictures - 1) / kMaxPictures;
+  std::vector<SearchPicture> few;
+  for (std::size_t k = 0; k < pictures.size(); k += step) few.push_back(pictures[k]);
+  return few;
+}
+
+// Whether a pixel is known well enough to be searched: to a few times the floor, or to a part of its value.
+bool is_clear(float rate, float weight, double floor) {
+  if (weight == 0.0F) return false;
+  const double error = 1.0 / std::sqrt(static_cast<double>(weight));
+  return error < kUnclear * floor || error < kUnclearPart * std::abs(static_cast<double>(rate));
+}
+
+}  // namespace
+
+std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor) {
+  std::vector<SearchPicture> pictures;
+  for (const FitStation& station : stations) {
+    SearchPicture picture{station.s, station.frame, Image(station.rate.width, station.rate.height, 1)};
+    for (std::size_t k = 0; k < picture.value.pixels.size(); ++k) {
+      double sum = 0.0;
+      bool usable = true;
+      for (std::size_t c = 0; c < 3; ++c) {
+        sum += static_cast<double>(station.rate.pixels[3 * k + c]);
+        usable = usable && is_clear(station.rate.pixels[3 * k + c], station.weight.pixels[3 * k + c], floor);
+      }
+      picture.value.pixels[k] = usable ? static_cast<float>(std::asinh(sum / (3.0 * floor))) : std::nanf("");
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
+}
+
+std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pictures, const GhostSearch& search,
+                                         std::span<const FoundGhost> excluded, const Context& context) {
+  const std::vector<SearchPicture> pictures = few_of(all_pictures);
+  if (pictures.empty()) return std::nullopt;
+  const TangentFrame& frame = pictures.front().frame.pixels;
+  double s_max = 0.0;
+  for (const SearchPicture& picture : pictures) s_max = std::max(s_max, picture.s);
+  const double reach_px = s_max * frame.focal_length_px;
+  if (!(reach_px > 0.0)) return std::nullopt;
+  const auto half = static_cast<int>(std::ceil(search.max_speed * reach_px));
+  const std::vector<double> radii = radii_px(frame.width);
+  const Spokes all = spokes();
+  struct OfSpeed {
+    FoundGhost best;
+    std::vector<double> contrasts;
+  };
+  std::vector<double> contrasts;
+  FoundGhost best;
+  const bool done = ordered_pipeline(
+      static_cast<std::size_t>(2 * half + 1), context,
+      [&](std::size_t k) {
+        OfSpeed one;
+        const double speed = (static_cast<int>(k) - half) / reach_px;
+        if (std::abs(speed - 1.0) * reach_px < kLightSpeed_px) return one;
+        for (const double radius : radii) {
+          FoundGhost candidate;
+          candidate.speed = speed;
+          candidate.radius = radius / frame.focal_length_px;
+          const Disc disc = disc_contrast(pictures, all, candidate);
+          one.contrasts.push_back(disc.signed_contrast);
+          const bool known = std::ranges::any_of(excluded, [&](const FoundGhost& other) {
+            return is_same(disc.found, other, reach_px, frame.focal_length_px);
+          });
+          if (!known && disc.found.contrast > one.best.contrast) one.best = disc.found;
+        }
+        return one;
+      },
+      [&](std::size_t /*k*/, const OfSpeed& one) {
+        contrasts.insert(contrasts.end(), one.contrasts.begin(), one.contrasts.end());
+        if (one.best.contrast > best.contrast) best = one.best;
+      });
+  if (!done) return std::nullopt;
+  if (!(best.contrast > 0.0)) return std::nullopt;
+  best = refined(all_pictures, all, best, reach_px);
+  best.contrast *= std::sqrt(static_cast<double>(pictures.size()) / static_cast<double>(all_pictures.size()));
+  best.contrast /= std::max(usual_contrast(std::move(contrasts)), 1e-6);
+  if (best.contrast < search.min_contrast) return std::nullopt;
+  return best;
+}
+
+}  // namespace contrejour::inline internal

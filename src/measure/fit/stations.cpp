@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/fit/stations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/tasks.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+constexpr std::size_t kMinStations = 5;
+constexpr double kMasked = 0.015;  // of the width, about the light
+constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this part of it count as noise
+constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
+constexpr double kUsable = 0.5;    // of a block's pixels, for the block to be used
+
+// Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
+Vec2 red_offset(BayerPattern pattern) {
+  switch (pattern) {
+    case BayerPattern::Rggb: return {-0.25, -0.25};
+    case BayerPattern::Bggr: return {0.25, 0.25};
+    case BayerPattern::Grbg: return {0.25, -0.25};
+    case BayerPattern::Gbrg: return {-0.25, 0.25};
+  }
+  return {};
+}
+
+// A channel that was measured beside the middle of its pixels, interpolated there.
+void move_channel(CapturedImage& image, int channel, Vec2 offset) {
+  const CapturedImage from = image;
+  const int step_x = offset.x < 0.0 ? 1 : -1, step_y = offset.y < 0.0 ? 1 : -1;
+  const double u = std::abs(offset.x), v = std::abs(offset.y);
+  const auto valid_at = [&](int x, int y) { return from.valid.at(x, y, from.valid.channels > channel ? channel : 0); };
+  for (int y = 0; y < from.rate.height; ++y) {
+    for (int x = 0; x < from.rate.width; ++x) {
+      const int x1 = std::clamp(x + step_x, 0, from.rate.width - 1);
+      const int y1 = std::clamp(y + step_y, 0, from.rate.height - 1);
+      const auto mixed = [&](const auto& at) {
+        return (1.0 - v) * ((1.0 - u) * static_cast<double>(at(x, y)) + u * static_cast<double>(at(x1, y))) +
+               v * ((1.0 - u) * static_cast<double>(at(x, y1)) + u * static_cast<double>(at(x1, y1)));
+      };
+      image.rate.at(x, y, channel) =
+          static_cast<float>(mixed([&](int i, int j) { return from.rate.at(i, j, channel); }));
+      const bool usable = valid_at(x, y) * valid_at(x1, y) * valid_at(x, y1) * valid_at(x1, y1) > 0.0F;
+      if (!usable) image.rate.at(x, y, channel) = std::nanf("");
+    }
+  }
+}
+
+void align_channels(CapturedImage& image, BayerPattern pattern) {
+  const Vec2 red = red_offset(pattern);
+  move_channel(image, 0, red);
+  move_channel(image, 2, red * -1.0);
+}
+
+// Means over blocks of `block` x `block` pixels, of the usable ones.
+struct Block {
+  double rate = 0, variance = 0;
+  int count = 0;
+};
+
+Block block_at(const CapturedImage& image, int left, int top, int block, int channel) {
+  Block sum;
+  for (int y = top; y < top + block; ++y) {
+    for (int x = left; x < left + block; ++x) {
+      const int valid_channel = image.valid.channels > channel ? channel : 0;
+      const double rate = static_cast<double>(image.rate.at(x, y, channel));
+      if (image.valid.at(x, y, valid_channel) == 0.0F || !std::isfinite(rate)) continue;
+      sum.rate += rate;
+      sum.variance += static_cast<double>(image.variance.at(x, y, channel));
+      ++sum.count;
+    }
+  }
+  return sum;
+}
+
+FitStation reduced(const CapturedImage& image, int block, const Rgb& light) {
+  FitStation station;
+  const int width = image.rate.width / block, height = image.rate.height / block;
+  station.rate = Image(width, height);
+  station.weight = Image(width, height);
+  const double pixels = static_cast<double>(block) * block;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const Block sum = block_at(image, x * block, y * block, block, c);
+        if (sum.count < kUsable * pixels) continue;
+        const double scale = pixels / (sum.count * light[static_cast<std::size_t>(c)]);
+        station.rate.at(x, y, c) = static_cast<float>(scale * sum.rate);
+        station.weight.at(x, y, c) = static_cast<float>(1.0 / (scale * scale * sum.variance));
+      }
+    }
+  }
+  return station;
+}
+
+void place(FitStation& station, double angle_rad, const SweepGeometry& geometry, int block) {
+  const double scale = 1.0 / block, focal_length_px = std::abs(geometry.focal_length_px);
+  station.frame.pixels = {station.rate.width, station.rate.height, scale * focal_length_px, geometry.centre_px * scale};
+  const Vec2 offset = geometry.position_of(angle_rad) - geometry.centre_px;
+  const double distance = length(offset);
+  station.s = distance / focal_length_px;
+  if (distance > 0.0) station.frame.to_light = {offset.x / distance, -offset.y / distance};
+}
+
+double bright_value(const FitStation& station) {
+  std::vector<float> values;
+  for (std::size_t k = 0; k < station.rate.pixels.size(); ++k) {
+    if (station.weight.pixels[k] > 0.0F) values.push_back(station.rate.pixels[k]);
+  }
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<double>(*at);
+}
+
+void add_model_error(FitStation& station, double model_error, double floor) {
+  for (std::size_t k = 0; k < station.rate.pixels.size(); ++k) {
+    float& weight = station.weight.pixels[k];
+    if (weight == 0.0F) continue;
+    const double off = model_error * std::max(static_cast<double>(station.rate.pixels[k]), 0.0);
+    weight = static_cast<float>(1.0 / (1.0 / static_cast<double>(weight) + off * off + floor * floor));
+  }
+}
+
+}  // namespace
+
+Result<SweepStations> reduced_stations(const FlareSweep& sweep, const SweepGeometry& geometry,
+                                       const FlareFitOptions& options, const Context& context) {
+  const std::size_t count = sweep.angles_rad.size();
+  if (count < kMinStations || !sweep.picture) {
+    return invalid_argument(fmt::format("{} stations; a fit needs at least {}", count, kMinStations));
+  }
+  if (!(std::abs(geometry.focal_length_px) > 0.0)) return invalid_argument("the geometry has no focal length");
+  SweepStations all;
+  std::optional<Error> error;
+  int width = 0, height = 0;
+  double saturated = 0.0;
+  const bool done = ordered_pipeline(
+      count, context,
+      [&](std::size_t k) -> Result<std::pair<FitStation, Vec2>> {
+        Result<CapturedImage> image = sweep.picture(k);
+        if (!image) return tl::unexpected(image.error());
+        if (sweep.pattern) align_channels(*image, *sweep.pattern);
+        const int block = std::max(1, (image->rate.width + options.max_width - 1) / options.max_width);
+        FitStation station = reduced(*image, block, sweep.light);
+        place(station, sweep.angles_rad[k], geometry, block);
+        return std::pair{std::move(station), geometry.position_of(sweep.angles_rad[k]) * (1.0 / block)};
+      },
+      [&](std::size_t k, Result<std::pair<FitStation, Vec2>>& one) {
+        if (error) return;
+        if (!one) {
+          error = one.error();
+          return;
+        }
+        if (k == 0) {
+          width = one->first.rate.width;
+          height = one->first.rate.height;
+        }
+        if (one->first.rate.width != width || one->first.rate.height != height) {
+          error = invalid_argument("the pictures of a sweep must have the same size").value();
+          return;
+        }
+        for (const float weight : one->first.weight.pixels) saturated += weight == 0.0F ? 1.0 : 0.0;
+        all.lights_px.push_back(one->second);
+        all.stations.push_back(std::move(one->first));
+      });
+  if (error) return tl::unexpected(*error);
+  if (!done) return interrupted();
+  all.saturated = saturated / (3.0 * static_cast<double>(count) * width * height);
+  all.masked_px = std::max(2.0, kMasked * width);
+  return all;
+}
+
+FitStation half_size_station(const FitStation& station) {
+  FitStation half;
+  half.s = station.s;
+  half.frame = station.frame;
+  const int width = station.rate.width / 2, height = station.rate.height / 2;
+  half.frame.pixels = {width, height, 0.5 * station.frame.pixels.focal_length_px, station.frame.pixels.centre_px * 0.5};
+  half.rate = Image(width, height);
+  half.weight = Image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0.0F, weight = 0.0F, used = 0.0F;
+        for (int k = 0; k < 4; ++k) {
+          const float w = station.weight.at(2 * x + k % 2, 2 * y + k / 2, c);
+          if (w == 0.0F) continue;
+          sum += station.rate.at(2 * x + k % 2, 2 * y + k / 2, c);
+          weight += w;
+          used += 1.0F;
+        }
+        if (used < 2.0F) continue;
+        half.rate.at(x, y, c) = 4.0F * sum / used;  // the light of a pixel of four times the area
+        half.weight.at(x, y, c) = weight / used / 16.0F;
+      }
+    }
+  }
+  return half;
+}
+
+std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo, double model_error) {
+  std::vector<FitStation> stations = sweep.stations;
+  std::vector<double> bright;
+  for (std::size_t k = 0; k < stations.size(); ++k) {
+    subtract_halo(stations[k], halo, sweep.lights_px[k], sweep.masked_px);
+    bright.push_back(bright_value(stations[k]));
+  }
+  std::ranges::nth_element(bright, bright.begin() + static_cast<std::ptrdiff_t>(bright.size() / 2));
+  const double floor = kFloor * std::max(bright[bright.size() / 2], 0.0);
+  for (FitStation& station : stations) add_model_error(station, model_error, floor);
+  return stations;
+}
+
+std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every) {
+  for (FitStation& station : stations) {
+    station.frame.sampled_every = every;
+    for (int y = 0; y < station.rate.height; ++y) {
+      for (int x = 0; x < station.rate.width; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          if (!station.frame.is_sampled(x, y)) station.weight.at(x, y, c) = 0.0F;
+        }
+      }
+    }
+  }
+  return stations;
+}
+
+}  // namespace contrejour::inline internal

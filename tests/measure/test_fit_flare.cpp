@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flares learned from simulated captures, which the exact renderer makes and not the model that is fitted.
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "base/units.h"
+#include "contrejour/expert/fit_flare.h"
+#include "contrejour/expert/sweep.h"
+
+using namespace contrejour;
+
+namespace {
+
+struct Capture {
+  SweepSettings settings;
+  std::vector<CapturedImage> pictures;
+  SweepGeometry geometry;
+
+  [[nodiscard]] FlareSweep sweep() const {
+    FlareSweep all;
+    for (const double angle : settings.angles_deg) all.angles_rad.push_back(rad_from_deg(angle));
+    all.pattern = settings.sensor.pattern;
+    const double light = settings.light_rate / 4.0;  // pixels of half the raw size
+    all.light = {light, light, light};
+    all.picture = [this](std::size_t k) -> Result<CapturedImage> { return pictures[k]; };
+    return all;
+  }
+};
+
+const Capture& tessar() {
+  static const Capture capture = [] {
+    const LensState lens = *configure_lens(*find_lens("tessar"), {});
+    Capture all;
+    all.settings.angles_deg = even_angles_deg(0.95 * largest_angle_deg(lens), 13);
+    all.settings.width = 320;
+    all.settings.height = 214;
+    all.settings.light_rate = *automatic_light_rate(lens, all.settings);
+    std::vector<DirectImage> lights;
+    for (std::size_t k = 0; k < all.settings.angles_deg.size(); ++k) {
+      const SweepStation station = *simulate_station(lens, all.settings, k);
+      all.pictures.push_back(*merge_exposures(station.exposures, station.background));
+      const auto at = direct_image_position(station.direct);
+      if (at) lights.push_back({rad_from_deg(station.angle_deg), *at});
+    }
+    all.geometry = *fit_geometry(lights);
+    return all;
+  }();
+  return capture;
+}
+
+FlareFitOptions quick() {
+  FlareFitOptions options;
+  options.max_ghosts = 1;
+  return options;
+}
+
+// Stations without any light.
+FlareSweep dark_sweep() {
+  FlareSweep sweep;
+  for (int k = -3; k <= 3; ++k) sweep.angles_rad.push_back(0.05 * k);
+  sweep.picture = [](std::size_t) -> Result<CapturedImage> {
+    CapturedImage image{Image(96, 64), Image(96, 64), Image(96, 64, 1), {}};
+    for (float& v : image.variance.pixels) v = 1.0F;
+    for (float& v : image.valid.pixels) v = 1.0F;
+    return image;
+  };
+  return sweep;
+}
+
+const SweepGeometry kPlain{{48.0, 32.0}, 100.0, 0.0, 0.0, 0.0, 0.0, {}};
+
+}  // namespace
+
+TEST_CASE("fit flare: the Tessar's bright ghost is found and fitted, and the optical centre with it [slow]") {
+  const Capture& capture = tessar();
+  const auto fit = fit_flare(capture.sweep(), capture.geometry, quick());
+  REQUIRE_MESSAGE(fit.has_value(), fit.error().to_string());
+  REQUIRE(fit->found.size() == 1);
+  const MeasuredGhost& ghost = fit->flare.ghosts[1];
+  // Read off the exact renderer's pictures of 320 pixels, to 1 and 2 per cent.
+  CHECK(ghost.centre.derivative(0.0) == doctest::Approx(-1.09).epsilon(0.03));
+  CHECK(ghost.half_height(0.0) == doctest::Approx(0.0358).epsilon(0.05));
+  const double centre = 0.25 * 320 + 0.5 * capture.settings.centre_offset_px.x;
+  CHECK(std::abs(fit->centre_px.x - centre) < 1.5);  // the light's image is known to a pixel of such small pictures
+  CHECK(std::abs(fit->centre_px.x - centre) < 0.7 * std::abs(capture.geometry.centre_px.x - centre));
+}
+
+TEST_CASE("fit flare: the same bits for any number of threads [slow]") {
+  const Capture& capture = tessar();
+  FlareFitOptions options = quick();
+  options.max_width = 80;
+  const auto one = fit_flare(capture.sweep(), capture.geometry, options, {.threads = 1});
+  const auto three = fit_flare(capture.sweep(), capture.geometry, options, {.threads = 3});
+  REQUIRE(one.has_value());
+  REQUIRE(three.has_value());
+  CHECK(write_flare(one->flare) == write_flare(three->flare));
+}
+
+TEST_CASE("fit flare: angles with the sign swapped give the same flare [slow]") {
+  const Capture& capture = tessar();
+  FlareSweep swapped = capture.sweep();
+  for (double& angle : swapped.angles_rad) angle = -angle;
+  SweepGeometry geometry = capture.geometry;
+  geometry.focal_length_px = -geometry.focal_length_px;
+  geometry.zero_rad = -geometry.zero_rad;
+  FlareFitOptions options = quick();
+  options.max_width = 80;
+  const auto as_is = fit_flare(capture.sweep(), capture.geometry, options);
+  const auto fit = fit_flare(swapped, geometry, options);
+  REQUIRE(as_is.has_value());
+  REQUIRE(fit.has_value());
+  REQUIRE(fit->flare.ghosts.size() == as_is->flare.ghosts.size());
+  CHECK(fit->flare.ghosts.back().centre(0.1) == doctest::Approx(as_is->flare.ghosts.back().centre(0.1)).epsilon(1e-6));
+}
+
+TEST_CASE("fit flare: pictures without a ghost give none, and a warning") {
+  const auto fit = fit_flare(dark_sweep(), kPlain);
+  REQUIRE(fit.has_value());
+  CHECK(fit->flare.ghosts.empty());
+  REQUIRE(fit->warnings.size() == 1);
+  CHECK(fit->warnings[0].find("no ghost") != std::string::npos);
+}
+
+TEST_CASE("fit flare: wrong input is refused, a picture's error is handed on, cancelling stops") {
+  FlareSweep sweep = dark_sweep();
+  sweep.angles_rad.resize(3);
+  CHECK(!fit_flare(sweep, kPlain));
+  CHECK(!fit_flare(dark_sweep(), {}));
+  sweep = dark_sweep();
+  const auto whole = sweep.picture;
+  sweep.picture = [&](std::size_t k) -> Result<CapturedImage> {
+    if (k == 4) return failure(ErrorCode::Io, "station 4 cannot be read");
+    return whole(k);
+  };
+  CHECK(fit_flare(sweep, kPlain).error().message == "station 4 cannot be read");
+  sweep.picture = [&](std::size_t k) -> Result<CapturedImage> {
+    Result<CapturedImage> image = whole(k);
+    if (k == 4) image->rate = image->variance = Image(48, 32);
+    if (k == 4) image->valid = Image(48, 32, 1);
+    return image;
+  };
+  CHECK(!fit_flare(sweep, kPlain));
+  const std::atomic<bool> cancel{true};
+  const auto cancelled = fit_flare(dark_sweep(), kPlain, {}, {.cancel = &cancel});
+  REQUIRE(!cancelled);
+  CHECK(cancelled.error().code == ErrorCode::Cancelled);
+}
