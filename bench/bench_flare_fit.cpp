@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flares fitted to simulated captures of lenses whose prescriptions say what is right: a program of its own.
 //   flare_fit [LENS] [STATIONS] [RAW WIDTH]
-// Speeds and sizes of ghosts come from exact rays: a ghost's speed is that of the middle of its footprint, close to the
-// axis. Ghosts higher than the picture, whose outline no picture shows, are not listed.
+// Each ghost by itself, as the exact renderer draws it at one angle, is compared with the fitted ghost by itself: its
+// middle over the light's place (speed), its RMS height (size), its flux, the RMS difference over its bright level.
+// Only pixels above a part of that level count: caustic ghosts have faint skirts far outside what a picture shows.
+// Ghosts that do not lie within the picture at this angle are not listed.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,41 +18,116 @@
 #include "contrejour/expert/sweep.h"
 #include "contrejour/frame.h"
 #include "contrejour/light.h"
+#include "contrejour/render.h"
 
 using namespace contrejour;
 
 namespace {
 
 constexpr double kLambda_nm = 550.0;
-constexpr double kNearAxis = 0.1;  // of the range, where speeds are taken
+constexpr double kPart = 0.45;     // of the range: the angle of the comparison
+constexpr double kCounts = 0.3;    // of a ghost's bright level: what belongs to its body
+constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
 constexpr std::size_t kBrightest = 12;
+
+// What a picture of a ghost by itself says of it.
+struct GhostMoments {
+  double speed = 0, size = 0, flux = 0, peak = 0;  // peak: the bright level
+};
 
 struct TrueGhost {
   Ghost ghost;
-  double speed = 0, radius = 0, level = 0;  // mean over its footprint near the axis
+  Image picture;
+  GhostMoments moments;
+};
+
+// The frame of the comparison, and the light's place in it.
+struct Comparison {
+  Frame frame;
+  TangentFrame tangents;
+  double s = 0;
 };
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Those whose outline fits into the picture, the brightest first.
-std::vector<TrueGhost> true_ghosts(const LensState& lens, double s_max) {
-  const GhostMeter meter(lens, kLambda_nm);
-  const double focal_length_mm = first_order(lens, kLambda_nm).focal_length_mm;
+double grey_at(const Image& picture, std::size_t k) {
+  return static_cast<double>(picture.pixels[3 * k] + picture.pixels[3 * k + 1] + picture.pixels[3 * k + 2]);
+}
+
+// A quarter of the light lies in brighter pixels.
+double bright_level(const Image& picture) {
+  std::vector<double> values;
+  for (std::size_t k = 0; 3 * k < picture.pixels.size(); ++k) values.push_back(grey_at(picture, k));
+  std::ranges::sort(values, std::greater());
+  double all = 0.0, sum = 0.0;
+  for (const double v : values) all += v;
+  for (const double v : values) {
+    sum += v;
+    if (sum > 0.25 * all) return v;
+  }
+  return 0.0;
+}
+
+GhostMoments moments_of(const Image& picture, const Comparison& at) {
+  GhostMoments m;
+  m.peak = bright_level(picture);
+  double count = 0.0;
+  double x1 = 0.0, y2 = 0.0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double value = static_cast<double>(picture.at(x, y, 0) + picture.at(x, y, 1) + picture.at(x, y, 2));
+      m.flux += value;
+      if (value < kCounts * m.peak) continue;
+      ++count;
+      x1 += x + 0.5 - at.tangents.centre_px.x;
+      y2 += std::pow(y + 0.5 - at.tangents.centre_px.y, 2);
+    }
+  }
+  if (count > 0.0) {
+    m.speed = x1 / (count * at.s * at.tangents.focal_length_px);
+    m.size = std::sqrt(y2 / count);
+  }
+  return m;
+}
+
+bool is_within(const Image& picture, double peak) {
+  double edge = 0.0;
+  const auto consider = [&](int x, int y) {
+    edge = std::max(edge, static_cast<double>(picture.at(x, y, 0) + picture.at(x, y, 1) + picture.at(x, y, 2)));
+  };
+  for (int x = 0; x < picture.width; ++x) consider(x, 0), consider(x, picture.height - 1);
+  for (int y = 0; y < picture.height; ++y) consider(0, y), consider(picture.width - 1, y);
+  return edge < kCounts * peak;
+}
+
+Comparison comparison_of(const LensState& lens, int width, int height, double s_max) {
+  Comparison at{frame_on_sensor(lens, width, height), {}, kPart * s_max};
+  const double focal_length_px = first_order(lens, kLambda_nm).focal_length_mm / at.frame.pixel_pitch_mm;
+  at.tangents = {width, height, focal_length_px, {0.5 * width, 0.5 * height}};
+  return at;
+}
+
+// Those that lie within the picture, the brightest first.
+std::vector<TrueGhost> true_ghosts(const LensState& lens, const Comparison& at) {
+  Light light;
+  light.direction = direction_from_angles(std::atan(at.s), 0.0);
+  light.radius_rad = SweepSettings{}.source_radius_rad;
+  FrameSettings settings;
+  settings.frame = at.frame;
+  settings.starburst.on = false;
+  settings.glare.share = 0.0;
   std::vector<TrueGhost> ghosts;
   for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::All)) {
-    const double s = kNearAxis * s_max;
-    const GhostMeasure axis = meter.measure(ghost, LightSource(Vec3{0.0, 0.0, 1.0}));
-    const GhostMeasure off = meter.measure(ghost, LightSource(direction_from_angles(std::atan(s), 0.0)));
-    if (!(axis.flux_mm2 > 0.0 && off.flux_mm2 > 0.0)) continue;
-    TrueGhost one{ghost, 0.0, 0.0, 0.0};
-    one.radius = 0.5 * (axis.max_mm.y - axis.min_mm.y) / focal_length_mm;
-    one.speed = -0.5 * (off.min_mm.x + off.max_mm.x) / (focal_length_mm * s);
-    one.level = axis.flux_mm2 / (one.radius * one.radius);
-    if (one.radius < 0.5 * lens.sensor_height_mm / focal_length_mm) ghosts.push_back(one);
+    settings.selection = SelectList{{ghost}};
+    Result<Flare> flare = render(AdaptiveOptions{}, lens, std::span(&light, 1), settings);
+    if (!flare) continue;
+    TrueGhost one{ghost, std::move(flare->image), {}};
+    one.moments = moments_of(one.picture, at);
+    if (one.moments.peak > 0.0 && is_within(one.picture, one.moments.peak)) ghosts.push_back(std::move(one));
   }
-  std::ranges::sort(ghosts, std::greater(), &TrueGhost::level);
+  std::ranges::sort(ghosts, [](const TrueGhost& a, const TrueGhost& b) { return a.moments.peak > b.moments.peak; });
   return ghosts;
 }
 
@@ -81,31 +158,65 @@ Result<Capture> captured(const LensState& lens, int stations, int raw_width) {
   return capture;
 }
 
-const MeasuredGhost* match_of(const TrueGhost& ghost, const MeasuredFlare& flare) {
-  const MeasuredGhost* best = nullptr;
-  double best_off = 0.15;
-  for (const MeasuredGhost& fitted : flare.ghosts) {
-    const double speed = fitted.centre.derivative(0.0) + fitted.skew.derivative(0.0);
-    const double off = std::hypot((speed - ghost.speed) / std::max(std::abs(ghost.speed), 0.5),
-                                  std::log(std::max(fitted.half_height(0.0), 1e-9) / ghost.radius));
+struct FittedGhost {
+  Image picture;
+  GhostMoments moments;
+};
+
+std::vector<FittedGhost> fitted_ghosts(const MeasuredFlare& flare, const Comparison& at) {
+  std::vector<FittedGhost> all;
+  for (const MeasuredGhost& ghost : flare.ghosts) {
+    MeasuredFlare alone = flare;
+    alone.ghosts = {ghost};
+    const FlareLight light{{at.s, 0.0}, {1.0, 1.0, 1.0}};
+    Result<Image> picture = render_measured(alone, std::span(&light, 1), at.tangents);
+    if (!picture) continue;
+    all.push_back({std::move(*picture), {}});
+    all.back().moments = moments_of(all.back().picture, at);
+  }
+  return all;
+}
+
+const FittedGhost* match_of(const TrueGhost& truth, const std::vector<FittedGhost>& fitted) {
+  const FittedGhost* best = nullptr;
+  double best_off = kSameGhost;
+  for (const FittedGhost& ghost : fitted) {
+    if (!(ghost.moments.flux > 0.0)) continue;
+    const double off =
+        std::hypot((ghost.moments.speed - truth.moments.speed) / std::max(std::abs(truth.moments.speed), 0.5),
+                   std::log(ghost.moments.size / truth.moments.size));
     if (off >= best_off) continue;
     best_off = off;
-    best = &fitted;
+    best = &ghost;
   }
   return best;
 }
 
-void print_ghosts(const std::vector<TrueGhost>& ghosts, const MeasuredFlare& flare) {
-  std::size_t found = 0, count = std::min(ghosts.size(), kBrightest);
+double rms_difference(const Image& a, const Image& b, double peak) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); k += 3) {
+    const double in_a = static_cast<double>(a.pixels[k] + a.pixels[k + 1] + a.pixels[k + 2]);
+    const double in_b = static_cast<double>(b.pixels[k] + b.pixels[k + 1] + b.pixels[k + 2]);
+    if (in_a < kCounts * peak) continue;
+    sum += (in_a - in_b) * (in_a - in_b);
+    ++count;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+void print_ghosts(const std::vector<TrueGhost>& ghosts, const std::vector<FittedGhost>& fitted) {
+  std::size_t found = 0;
+  const std::size_t count = std::min(ghosts.size(), kBrightest);
   for (std::size_t k = 0; k < count; ++k) {
-    const TrueGhost& truth = ghosts[k];
-    const MeasuredGhost* fitted = match_of(truth, flare);
-    std::printf("  %2d-%-2d level %9.3g speed %8.4f radius %.5f", truth.ghost.i, truth.ghost.j, truth.level,
-                truth.speed, truth.radius);
-    if (fitted != nullptr) {
-      const double speed = fitted->centre.derivative(0.0) + fitted->skew.derivative(0.0);
-      std::printf("   speed %+6.2f %%  size %+6.2f %%", 100.0 * (speed / truth.speed - 1.0),
-                  100.0 * (fitted->half_height(0.0) / truth.radius - 1.0));
+    const GhostMoments& truth = ghosts[k].moments;
+    std::printf("  %2d-%-2d peak %8.2e speed %8.4f size %6.2f px", ghosts[k].ghost.i, ghosts[k].ghost.j, truth.peak,
+                truth.speed, truth.size);
+    if (const FittedGhost* match = match_of(ghosts[k], fitted)) {
+      const GhostMoments& fit = match->moments;
+      std::printf("   speed %+6.2f %%  size %+6.2f %%  flux %+6.1f %%  NRMSE %4.1f %%",
+                  100.0 * (fit.speed / truth.speed - 1.0), 100.0 * (fit.size / truth.size - 1.0),
+                  100.0 * (fit.flux / truth.flux - 1.0),
+                  100.0 * rms_difference(ghosts[k].picture, match->picture, truth.peak) / truth.peak);
       if (k < 10) ++found;
     }
     std::printf("\n");
@@ -144,7 +255,9 @@ int run(const std::string& name, int stations, int raw_width) {
       name.c_str(), stations, capture->pictures[0].rate.width, seconds_now() - start, fit->flare.ghosts.size(),
       fit->image_evaluations, fit->nrmse, fit->centre_px.x - centre.x, fit->centre_px.y - centre.y,
       geometry->centre_px.x - centre.x);
-  print_ghosts(true_ghosts(lens, fit->flare.s_max), fit->flare);
+  const Image& first = capture->pictures[0].rate;
+  const Comparison at = comparison_of(lens, first.width, first.height, fit->flare.s_max);
+  print_ghosts(true_ghosts(lens, at), fitted_ghosts(fit->flare, at));
   return 0;
 }
 
