@@ -186,6 +186,32 @@ bool is_clear(float rate, float weight, double floor) {
   return error < kUnclear * floor || error < kUnclearPart * std::abs(static_cast<double>(rate));
 }
 
+// The discs of one speed: the best that is not excluded, and what all of them show.
+struct OfSpeed {
+  FoundGhost best;
+  std::vector<double> contrasts;
+};
+
+OfSpeed discs_of_speed(std::span<const SearchPicture> pictures, const Spokes& all, double speed,
+                       std::span<const double> radii, std::span<const FoundGhost> excluded) {
+  OfSpeed one;
+  const double focal_length_px = pictures.front().frame.pixels.focal_length_px;
+  double reach_px = 0.0;
+  for (const SearchPicture& picture : pictures) reach_px = std::max(reach_px, picture.s * focal_length_px);
+  if (std::abs(speed - 1.0) * reach_px < kLightSpeed_px) return one;
+  for (const double radius_px : radii) {
+    FoundGhost candidate;
+    candidate.speed = speed;
+    candidate.radius = radius_px / focal_length_px;
+    const Disc disc = disc_contrast(pictures, all, candidate);
+    one.contrasts.push_back(disc.signed_contrast);
+    const bool known = std::ranges::any_of(
+        excluded, [&](const FoundGhost& other) { return is_same(disc.found, other, reach_px, focal_length_px); });
+    if (!known && disc.found.contrast > one.best.contrast) one.best = disc.found;
+  }
+  return one;
+}
+
 }  // namespace
 
 std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor) {
@@ -218,30 +244,12 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
   const auto half = static_cast<int>(std::ceil(search.max_speed * reach_px));
   const std::vector<double> radii = radii_px(frame.width);
   const Spokes all = spokes();
-  struct OfSpeed {
-    FoundGhost best;
-    std::vector<double> contrasts;
-  };
   std::vector<double> contrasts;
   FoundGhost best;
   const bool done = ordered_pipeline(
       static_cast<std::size_t>(2 * half + 1), context,
       [&](std::size_t k) {
-        OfSpeed one;
-        const double speed = (static_cast<int>(k) - half) / reach_px;
-        if (std::abs(speed - 1.0) * reach_px < kLightSpeed_px) return one;
-        for (const double radius : radii) {
-          FoundGhost candidate;
-          candidate.speed = speed;
-          candidate.radius = radius / frame.focal_length_px;
-          const Disc disc = disc_contrast(pictures, all, candidate);
-          one.contrasts.push_back(disc.signed_contrast);
-          const bool known = std::ranges::any_of(excluded, [&](const FoundGhost& other) {
-            return is_same(disc.found, other, reach_px, frame.focal_length_px);
-          });
-          if (!known && disc.found.contrast > one.best.contrast) one.best = disc.found;
-        }
-        return one;
+        return discs_of_speed(pictures, all, (static_cast<int>(k) - half) / reach_px, radii, excluded);
       },
       [&](std::size_t /*k*/, const OfSpeed& one) {
         contrasts.insert(contrasts.end(), one.contrasts.begin(), one.contrasts.end());

@@ -23,11 +23,11 @@ constexpr std::size_t kTogetherEvery = 3;  // ghosts, after which all are fitted
 constexpr double kLeastGain = 8.0;  // of the cost for each unknown of a new ghost: neighbouring pixels err alike
 constexpr int kMostRejected = 4;    // in a row
 constexpr double kNoHuber = 1e9, kFarHuber = 10.0;  // far from the solution every residual is an outlier
-constexpr double kSaturated = 0.05;  // of all pixels: so many deserve a warning
+constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
 constexpr std::size_t kFewStations = 10;  // to which a ghost is fitted alone
 constexpr double kSeenMargin = 1.1;
 constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
-constexpr double kClear = 9.0;  // the square of a pixel's value over its standard deviation
+constexpr double kStandsOut = 9.0;  // the square of a pixel's value over its standard deviation
 constexpr double kConverged = 2e-4;
 // The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
 // would stand for the background, or for a bright rim.
@@ -231,7 +231,7 @@ double nrmse_of(const FlareFit& fit) {
     for (std::size_t i = 0; i < residuals[k].rate.pixels.size(); ++i) {
       const auto weight = static_cast<double>(residuals[k].weight.pixels[i]);
       const auto value = static_cast<double>(fit.coarse[k].rate.pixels[i]);
-      if (weight * value * value < kClear) continue;
+      if (weight * value * value < kStandsOut) continue;
       left += std::pow(static_cast<double>(residuals[k].rate.pixels[i]), 2);
       all += value * value;
     }
@@ -258,7 +258,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   separate_halo(fit, kHaloQuantile);
   for (const FitStation& station : fit.fine) fit.flare().s_max = std::max(fit.flare().s_max, station.s);
   fit.flare().ghosts.push_back(start_of_veil(fit.coarse, fit.flare().s_max));
-  if (fit.sweep.saturated > kSaturated) {
+  if (fit.sweep.saturated > kManySaturated) {
     fit.result.warnings.push_back(
         fmt::format("{:.0f} per cent of the pixels are saturated in every exposure: take shorter ones",
                     100.0 * fit.sweep.saturated));

@@ -12,7 +12,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr std::size_t kMinStations = 5;
+constexpr std::size_t kFewestStations = 5;
 constexpr double kMasked = 0.015;  // of the width, about the light
 constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this part of it count as noise
 constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
@@ -132,8 +132,8 @@ void add_model_error(FitStation& station, double model_error, double floor) {
 Result<SweepStations> reduced_stations(const FlareSweep& sweep, const SweepGeometry& geometry,
                                        const FlareFitOptions& options, const Context& context) {
   const std::size_t count = sweep.angles_rad.size();
-  if (count < kMinStations || !sweep.picture) {
-    return invalid_argument(fmt::format("{} stations; a fit needs at least {}", count, kMinStations));
+  if (count < kFewestStations || !sweep.picture) {
+    return invalid_argument(fmt::format("{} stations; a fit needs at least {}", count, kFewestStations));
   }
   if (!(std::abs(geometry.focal_length_px) > 0.0)) return invalid_argument("the geometry has no focal length");
   SweepStations all;
