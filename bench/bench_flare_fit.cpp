@@ -117,7 +117,7 @@ std::vector<TrueGhost> true_ghosts(const LensState& lens, const Comparison& at) 
   FrameSettings settings;
   settings.frame = at.frame;
   settings.starburst.on = false;
-  settings.glare.share = 0.0;
+  settings.glare.fraction = 0.0;
   std::vector<TrueGhost> ghosts;
   for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::All)) {
     settings.selection = SelectList{{ghost}};

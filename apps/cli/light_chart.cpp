@@ -128,7 +128,7 @@ void draw_lights(Svg& svg, const LightChart& chart) {
 }
 
 void draw_legend(Svg& svg, const LightChart& chart, const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   const double left = kChartWidth - kLegendWidth + 10.0, height = 220.0, top = kChartCentre.y - 0.5 * height;
   constexpr int kSteps = 60;
   for (int k = 0; k < kSteps; ++k) {
@@ -138,7 +138,8 @@ void draw_legend(Svg& svg, const LightChart& chart, const std::vector<double>& v
   const auto label = [&](double in_range, const char* word) {
     const double y = top + height * (1.0 - in_range);
     svg.line({left, y}, {left + 24.0, y}, R"(stroke="#222" stroke-width="1")");
-    svg.text({left + 28.0, y + 4.0}, fmt::format("{:.3g} {}", *least + in_range * (*most - *least), word), kChartText);
+    svg.text({left + 28.0, y + 4.0}, fmt::format("{:.3g} {}", *smallest + in_range * (*largest - *smallest), word),
+             kChartText);
   };
   label(1.0, "worst");
   label(chart.safe, "safe");

@@ -94,22 +94,22 @@ int own_black(LibRaw& raw, int y, int x) {
 constexpr int kBlackBlock = 12;  // pixels a side, which blocks of 2, 3, 4 and 6 divide
 
 int least_own_black(LibRaw& raw) {
-  int least = own_black(raw, 0, 0);
+  int smallest = own_black(raw, 0, 0);
   for (int k = 1; k < kBlackBlock * kBlackBlock; ++k)
-    least = std::min(least, own_black(raw, k / kBlackBlock, k % kBlackBlock));
-  return least;
+    smallest = std::min(smallest, own_black(raw, k / kBlackBlock, k % kBlackBlock));
+  return smallest;
 }
 
 // The mosaic of the visible area. Pixels with a higher black level of their own are moved to the common one.
 RawFrame visible_frame(LibRaw& raw, BayerPattern pattern, const MosaicFormat& format, double time_s) {
   const auto& sizes = raw.imgdata.sizes;
   const auto& colour = raw.imgdata.color;
-  const int least = least_own_black(raw);
+  const int smallest = least_own_black(raw);
   RawFrame frame;
   frame.width = sizes.width & ~1;
   frame.height = sizes.height & ~1;
   frame.pattern = pattern;
-  frame.black_dn = format.black_dn.value_or(static_cast<double>(colour.black) + least);
+  frame.black_dn = format.black_dn.value_or(static_cast<double>(colour.black) + smallest);
   frame.white_dn = format.white_dn.value_or(colour.maximum);
   frame.time_s = time_s;
   frame.dn.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
@@ -117,7 +117,7 @@ RawFrame visible_frame(LibRaw& raw, BayerPattern pattern, const MosaicFormat& fo
     const std::size_t row = static_cast<std::size_t>(y + sizes.top_margin) * (sizes.raw_pitch / 2);
     for (int x = 0; x < frame.width; ++x) {
       const int dn = raw.imgdata.rawdata.raw_image[row + static_cast<std::size_t>(x + sizes.left_margin)];
-      const int over = format.black_dn ? 0 : own_black(raw, y, x) - least;
+      const int over = format.black_dn ? 0 : own_black(raw, y, x) - smallest;
       frame.dn.push_back(static_cast<std::uint16_t>(std::clamp(dn - over, 0, 65535)));
     }
   }

@@ -39,10 +39,10 @@ RingSum ring_sum(const Image& image, Vec2 centre, double from, double to) {
 
 // The radius of a disc as large as the part of the image above half of its maximum.
 double half_maximum_radius(const Image& image) {
-  float most = 0.0F;
-  for (std::size_t k = 1; k < image.pixels.size(); k += 3) most = std::max(most, image.pixels[k]);
+  float largest = 0.0F;
+  for (std::size_t k = 1; k < image.pixels.size(); k += 3) largest = std::max(largest, image.pixels[k]);
   double count = 0.0;
-  for (std::size_t k = 1; k < image.pixels.size(); k += 3) count += image.pixels[k] >= 0.5F * most ? 1.0 : 0.0;
+  for (std::size_t k = 1; k < image.pixels.size(); k += 3) count += image.pixels[k] >= 0.5F * largest ? 1.0 : 0.0;
   return std::sqrt(count / std::numbers::pi);
 }
 
@@ -65,7 +65,7 @@ Result<DirectFlux> direct_flux(const RawFrame& direct) {
   return flux;
 }
 
-std::vector<std::size_t> unsteady_stations(std::span<const double> flux, double most) {
+std::vector<std::size_t> unsteady_stations(std::span<const double> flux, double largest) {
   std::vector<std::size_t> unsteady;
   for (std::size_t k = 0; k < flux.size(); ++k) {
     const std::size_t first = k >= 2 ? k - 2 : 0, last = std::min(k + 3, flux.size());
@@ -73,7 +73,7 @@ std::vector<std::size_t> unsteady_stations(std::span<const double> flux, double 
                              flux.begin() + static_cast<std::ptrdiff_t>(last));
     std::ranges::sort(near);
     const double middle = near[near.size() / 2];
-    if (middle > 0.0 && std::abs(flux[k] / middle - 1.0) > most) unsteady.push_back(k);
+    if (middle > 0.0 && std::abs(flux[k] / middle - 1.0) > largest) unsteady.push_back(k);
   }
   return unsteady;
 }

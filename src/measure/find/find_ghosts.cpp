@@ -129,9 +129,10 @@ Disc disc_contrast(std::span<const SearchPicture> pictures, const Spokes& all, c
 }
 
 // A pattern search for the speed, its bend, the radius and its growth of the highest contrast.
-FoundGhost refined(std::span<const SearchPicture> pictures, const Spokes& all, FoundGhost best, double reach_px) {
-  const double s_max = reach_px / pictures.front().frame.pixels.focal_length_px;
-  std::array<double, 4> step{1.0 / reach_px, 2.0 / (reach_px * s_max * s_max), 0.05 * best.radius,
+FoundGhost refined(std::span<const SearchPicture> pictures, const Spokes& all, FoundGhost best,
+                   double max_distance_px) {
+  const double s_max = max_distance_px / pictures.front().frame.pixels.focal_length_px;
+  std::array<double, 4> step{1.0 / max_distance_px, 2.0 / (max_distance_px * s_max * s_max), 0.05 * best.radius,
                              0.1 / (s_max * s_max)};
   for (int round = 0; round < kRefinements; ++round) {
     bool better = false;
@@ -159,8 +160,8 @@ std::vector<double> radii_px(double width) {
   return radii;
 }
 
-bool is_same(const FoundGhost& a, const FoundGhost& b, double reach_px, double focal_length_px) {
-  return std::abs(a.speed - b.speed) * reach_px < kSameSpeed_px &&
+bool is_same(const FoundGhost& a, const FoundGhost& b, double max_distance_px, double focal_length_px) {
+  return std::abs(a.speed - b.speed) * max_distance_px < kSameSpeed_px &&
          std::abs(a.radius - b.radius) < std::max(kSameRadius * b.radius, 1.5 / focal_length_px);
 }
 
@@ -196,17 +197,19 @@ OfSpeed discs_of_speed(std::span<const SearchPicture> pictures, const Spokes& al
                        std::span<const double> radii, std::span<const FoundGhost> excluded) {
   OfSpeed one;
   const double focal_length_px = pictures.front().frame.pixels.focal_length_px;
-  double reach_px = 0.0;
-  for (const SearchPicture& picture : pictures) reach_px = std::max(reach_px, picture.s * focal_length_px);
-  if (std::abs(speed - 1.0) * reach_px < kLightSpeed_px) return one;
+  double max_distance_px = 0.0;
+  for (const SearchPicture& picture : pictures)
+    max_distance_px = std::max(max_distance_px, picture.s * focal_length_px);
+  if (std::abs(speed - 1.0) * max_distance_px < kLightSpeed_px) return one;
   for (const double radius_px : radii) {
     FoundGhost candidate;
     candidate.speed = speed;
     candidate.radius = radius_px / focal_length_px;
     const Disc disc = disc_contrast(pictures, all, candidate);
     one.contrasts.push_back(disc.signed_contrast);
-    const bool known = std::ranges::any_of(
-        excluded, [&](const FoundGhost& other) { return is_same(disc.found, other, reach_px, focal_length_px); });
+    const bool known = std::ranges::any_of(excluded, [&](const FoundGhost& other) {
+      return is_same(disc.found, other, max_distance_px, focal_length_px);
+    });
     if (!known && disc.found.contrast > one.best.contrast) one.best = disc.found;
   }
   return one;
@@ -239,9 +242,9 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
   const TangentFrame& frame = pictures.front().frame.pixels;
   double s_max = 0.0;
   for (const SearchPicture& picture : pictures) s_max = std::max(s_max, picture.s);
-  const double reach_px = s_max * frame.focal_length_px;
-  if (!(reach_px > 0.0)) return std::nullopt;
-  const auto half = static_cast<int>(std::ceil(search.max_speed * reach_px));
+  const double max_distance_px = s_max * frame.focal_length_px;
+  if (!(max_distance_px > 0.0)) return std::nullopt;
+  const auto half = static_cast<int>(std::ceil(search.max_speed * max_distance_px));
   const std::vector<double> radii = radii_px(frame.width);
   const Spokes all = spokes();
   std::vector<double> contrasts;
@@ -249,7 +252,7 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
   const bool done = ordered_pipeline(
       static_cast<std::size_t>(2 * half + 1), context,
       [&](std::size_t k) {
-        return discs_of_speed(pictures, all, (static_cast<int>(k) - half) / reach_px, radii, excluded);
+        return discs_of_speed(pictures, all, (static_cast<int>(k) - half) / max_distance_px, radii, excluded);
       },
       [&](std::size_t /*k*/, const OfSpeed& one) {
         contrasts.insert(contrasts.end(), one.contrasts.begin(), one.contrasts.end());
@@ -257,7 +260,7 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
       });
   if (!done) return std::nullopt;
   if (!(best.contrast > 0.0)) return std::nullopt;
-  best = refined(all_pictures, all, best, reach_px);
+  best = refined(all_pictures, all, best, max_distance_px);
   best.contrast *= std::sqrt(static_cast<double>(pictures.size()) / static_cast<double>(all_pictures.size()));
   best.contrast /= std::max(usual_contrast(std::move(contrasts)), 1e-6);
   if (best.contrast < search.min_contrast) return std::nullopt;

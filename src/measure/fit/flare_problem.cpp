@@ -27,7 +27,7 @@ struct StationPlace {
   StationFrame frame;
 };
 
-StationPlace place_of(const FitStation& station, double centre_shift) {
+StationPlace position_of(const FitStation& station, double centre_shift) {
   StationPlace place{station.s - centre_shift * station.frame.to_light.x, station.frame};
   place.frame.pixels.centre_px.x += centre_shift * station.frame.pixels.focal_length_px;
   if (place.s < 0.0) {
@@ -263,13 +263,13 @@ void add_prior(const FlareProblem& problem, const Eigen::VectorXd& at, const Eig
 }  // namespace
 
 void move_centre(FitStation& station, double centre_shift) {
-  const StationPlace place = place_of(station, centre_shift);
+  const StationPlace place = position_of(station, centre_shift);
   station.s = place.s;
   station.frame = place.frame;
 }
 
 Image model_image(const MeasuredFlare& flare, const FitStation& station) {
-  const std::vector<double> model = model_of(ghosts_in(flare, place_of(station, 0.0), false), station);
+  const std::vector<double> model = model_of(ghosts_in(flare, position_of(station, 0.0), false), station);
   Image image(station.rate.width, station.rate.height);
   std::transform(model.begin(), model.end(), image.pixels.begin(), [](double v) { return static_cast<float>(v); });
   return image;
@@ -282,7 +282,7 @@ double FlareProblem::cost(const Eigen::VectorXd& unknowns) const {
   ordered_pipeline(
       stations.size(), context,
       [&](std::size_t k) {
-        const auto ghosts = ghosts_in(now, place_of(stations[k], shift), false);
+        const auto ghosts = ghosts_in(now, position_of(stations[k], shift), false);
         return loss_of(model_of(ghosts, stations[k]), stations[k], huber);
       },
       [&](std::size_t /*k*/, double loss) { sum += loss; });
@@ -305,7 +305,7 @@ NormalEquations FlareProblem::equations(const Eigen::VectorXd& unknowns) const {
       stations.size(), context,
       [&](std::size_t k) {
         OfStation one;
-        const StationPlace place = place_of(stations[k], shift);
+        const StationPlace place = position_of(stations[k], shift);
         one.ghosts = ghosts_in(now, place, true);
         for (const GhostInStation& ghost : one.ghosts) {
           for (std::size_t curve = 0; curve < kGhostCurves; ++curve)

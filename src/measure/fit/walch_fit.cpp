@@ -26,7 +26,7 @@ WalchParameters walch_parameters(const GhostAtAngle& g) {
 }
 
 GhostAtAngle walch_ghost(const WalchParameters& p) {
-  const auto above = [](double x, double least) { return std::max(x, least); };
+  const auto above = [](double x, double smallest) { return std::max(x, smallest); };
   GhostAtAngle g;
   g.outline = {p[0],
                above(p[1], 1e-6),

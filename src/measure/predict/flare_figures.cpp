@@ -79,9 +79,9 @@ Result<FlareFigures> figures_of(const Image& flare, const FigureSettings& settin
   std::vector<double> values = luminances_of(flare, settings.space);
   FlareFigures figures;
   if (values.empty()) return figures;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  figures.minimum = *least;
-  figures.maximum = *most;
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+  figures.minimum = *smallest;
+  figures.maximum = *largest;
   figures.mean = mean_of(values);
   figures.sum = figures.mean * static_cast<double>(values.size());
   figures.log_average = log_average_of(values, kLogOffset * settings.white);
@@ -141,9 +141,9 @@ Result<GlareFigures> glare_of(const Image& flare, double level_of_direct_image, 
 
 Result<Rating> rating_of(double value, std::span<const double> others) {
   if (others.empty()) return invalid_argument("there is nothing to rate a value against");
-  const auto [least, most] = std::minmax_element(others.begin(), others.end());
+  const auto [smallest, largest] = std::minmax_element(others.begin(), others.end());
   Rating rating;
-  if (*most > *least) rating.in_range = (value - *least) / (*most - *least);
+  if (*largest > *smallest) rating.in_range = (value - *smallest) / (*largest - *smallest);
   double below = 0.0;
   for (const double other : others) below += other < value ? 1.0 : other == value ? 0.5 : 0.0;
   rating.rank = below / static_cast<double>(others.size());
