@@ -229,7 +229,7 @@ Result<PredictionRow> row_of_frame(const std::string& file, const PredictOptions
   ApplyOptions frame;
   frame.input = file;
   frame.values = options.values;
-  auto planned = read_photograph(frame, scene.lens);
+  auto planned = read_photograph(frame, std::make_shared<const LensState>(scene.lens));
   if (!planned) return tl::unexpected(planned.error());
   const LongTask task("predicting", options.values.integer("threads"));
   const auto flared = render_photograph(std::move(*planned), renderer, task.context());

@@ -24,7 +24,7 @@ constexpr double kLeastGain = 8.0;  // of the cost for each unknown of a new gho
 constexpr int kMostRejected = 4;    // in a row
 constexpr double kNoHuber = 1e9, kFarHuber = 10.0;  // far from the solution every residual is an outlier
 constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
-constexpr std::size_t kFewStations = 10;  // to which a ghost is fitted alone
+constexpr std::size_t kStationsOfOneFit = 10;  // to which a ghost is fitted alone
 constexpr double kSeenMargin = 1.1;
 constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
 constexpr double kStandsOut = 9.0;  // the square of a pixel's value over its standard deviation
@@ -172,7 +172,7 @@ std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, co
     if (station.s <= kSeenMargin * found.last) seen.push_back(station);
   }
   std::vector<FitStation> few;
-  const std::size_t step = (seen.size() + kFewStations - 1) / kFewStations;
+  const std::size_t step = (seen.size() + kStationsOfOneFit - 1) / kStationsOfOneFit;
   for (std::size_t k = 0; k < seen.size(); k += std::max<std::size_t>(step, 1)) few.push_back(seen[k]);
   return few;
 }

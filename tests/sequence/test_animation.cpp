@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys by frame: what lies between them, and what a file of lights says at each frame.
+#include "contrejour/expert/animation.h"
+
+#include <algorithm>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "contrejour/expert/parameter_text.h"
+
+using namespace contrejour;
+
+namespace {
+
+KeyedValue keyed(std::vector<std::pair<int, double>> keys, Interpolation between) {
+  KeyedValue value;
+  for (const auto& [frame, number] : keys) value.keys.push_back({frame, {number}, {}});
+  value.between = between;
+  return value;
+}
+
+double at(const KeyedValue& value, double frame) { return params::parse_real(text_at(value, frame)).value(); }
+
+Animation must_read(const std::string& toml) {
+  auto read = read_animation(toml, "lights.toml");
+  REQUIRE_MESSAGE(read.has_value(), (read ? "" : read.error().to_string()));
+  return std::move(*read);
+}
+
+std::string error_of(const std::string& toml) {
+  const auto read = read_animation(toml, "lights.toml");
+  REQUIRE_FALSE(read.has_value());
+  CHECK(read.error().code == ErrorCode::Parse);
+  return read.error().to_string();
+}
+
+}  // namespace
+
+TEST_CASE("steps and lines between keys, constant outside") {
+  for (const auto between : {Interpolation::Step, Interpolation::Linear, Interpolation::Smooth}) {
+    const KeyedValue value = keyed({{10, 1.0}, {20, 3.0}, {40, -1.0}}, between);
+    CHECK(at(value, -100) == 1.0);
+    CHECK(at(value, 10) == 1.0);
+    CHECK(at(value, 20) == 3.0);
+    CHECK(at(value, 40) == -1.0);
+    CHECK(at(value, 1e9) == -1.0);
+  }
+  CHECK(at(keyed({{10, 1.0}, {20, 3.0}}, Interpolation::Linear), 12.5) == 1.5);
+  CHECK(at(keyed({{10, 1.0}, {20, 3.0}}, Interpolation::Step), 19.9) == 1.0);
+}
+
+TEST_CASE("a smooth curve has no corner at a key and stays between its keys") {
+  const KeyedValue value = keyed({{0, 0.0}, {10, 1.0}, {30, 8.0}, {40, 8.0}, {50, 2.0}}, Interpolation::Smooth);
+  constexpr double kStep = 1e-3;
+  for (const int key : {0, 10, 30, 40, 50}) {
+    CAPTURE(key);
+    const double before = (at(value, key) - at(value, key - kStep)) / kStep;
+    const double after = (at(value, key + kStep) - at(value, key)) / kStep;
+    CHECK(before == doctest::Approx(after).epsilon(0.02).scale(1.0));
+  }
+  for (double frame = 0; frame < 50; frame += 0.37) {
+    const double now = at(value, frame), next = at(value, frame + 0.37);
+    if (frame + 0.37 <= 40) CHECK(next >= now);
+    if (frame >= 40) CHECK(next <= now);
+    CHECK(now >= 0.0);
+    CHECK(now <= 8.0);
+  }
+  // Two keys alone: the cubic 3 t^2 - 2 t^3.
+  CHECK(at(keyed({{0, 0.0}, {10, 1.0}}, Interpolation::Smooth), 2.5) == doctest::Approx(0.15625));
+}
+
+TEST_CASE("a file's lights and parameters at each frame") {
+  const Animation shot = must_read(R"([parameters]
+fnumber = { 1001 = 4, 1011 = 16 }
+blades = { 1001 = 5, 1011 = 8 }
+starburst = { 1001 = false, 1005 = true }
+
+[[light]]
+name = "lamp"
+at = { 1001 = [0.1, 0.4], 1011 = [0.9, 0.2] }
+value = { 1001 = 5000, 1011 = 6000 }
+distance = 2500
+on = { 1001 = true, 1011 = false }
+
+[[light]]
+direction = [5, -3]
+value = [1, 2, 3]
+colour = "3200K"
+size = 0.5
+)");
+  CHECK(first_key(shot) == 1001);
+  const auto values_at = [&](double frame) {
+    params::Values values = parameters_at(shot, frame);
+    add_lights_at(shot, frame, values);
+    return values;
+  };
+  CHECK(values_at(1006).number("fnumber") == doctest::Approx(10.0));
+  CHECK(values_at(1002).integer("blades") == 5);
+  CHECK(values_at(1006).integer("blades") == 7);
+  CHECK_FALSE(values_at(1004).is_on("starburst"));
+  CHECK(values_at(1005).is_on("starburst"));
+
+  const auto lamp = params::parse_light(values_at(1006).list("light-at").at(0)).value();
+  CHECK(lamp.position.x == doctest::Approx(0.5));
+  CHECK(lamp.position.y == doctest::Approx(0.3));
+  CHECK(lamp.value->rgb[0] == doctest::Approx(5500));
+  CHECK_FALSE(lamp.colour.has_value());
+  CHECK(lamp.distance_mm == 2500.0);
+  CHECK(values_at(1011).list("light-at").empty());
+
+  const auto sun = params::parse_light(values_at(1011).list("light").at(0)).value();
+  CHECK(sun.value->rgb == Rgb{1, 2, 3});
+  CHECK(sun.size_deg == 0.5);
+  CHECK_FALSE(sun.distance_mm.has_value());
+}
+
+TEST_CASE("errors name the line and the remedy") {
+  const auto says = [](const std::string& error, const char* what) {
+    CAPTURE(error);
+    CHECK(error.find(what) != std::string::npos);
+  };
+  says(error_of("[[light]]\nvalue = 3\n"), "lights.toml:1: light 1: give either at");
+  says(error_of("[[light]]\nat = [0.5]\n"), "lights.toml:2");
+  says(error_of("[[light]]\nat = [0.5, 0.5]\nvalue = -1\n"), "lights.toml:3");
+  says(error_of("[[light]]\nat = [0.5, 0.5]\ndirection = [1, 1]\n"), "give either at");
+  says(error_of("[[light]]\nat = [0.5, 0.5]\non = 3\n"), "true or false");
+  says(error_of("[[light]]\nat = { 1 = [0, 0], a = [1, 1] }\n"), "\"a\" is not the number of a frame");
+  says(error_of("[[light]]\nat = { 1 = [0, 0], 01 = [1, 1] }\n"), "two keys");
+  says(error_of("[[light]]\nat = { 1 = [0, 0], 2 = 3 }\n"), "different kinds");
+  says(error_of("[[light]]\nat = { between = \"linear\" }\n"), "no key");
+  says(error_of("[[light]]\nat = { 1 = [0, 0], between = \"soft\" }\n"), "\"smooth\"");
+  says(error_of("[[light]]\nat = []\n"), "empty");
+  says(error_of("[[light]]\nname = \"a\"\nat = [0, 0]\n[[light]]\nname = \"a\"\nat = [0, 0]\n"), "two lights");
+  says(error_of("[parameters]\nfnumbr = 3\n"), "did you mean fnumber?");
+  says(error_of("[parameters]\nsize = \"64x64\"\n"), "not a parameter that can change");
+  says(error_of("[parameters]\nfnumber = { 1 = 4, 2 = -1 }\n"), "lights.toml:2");
+  says(error_of("lights = 3\n"), "unknown key");
+}
