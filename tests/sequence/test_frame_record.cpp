@@ -18,12 +18,12 @@ namespace {
 
 void write(const fs::path& file, const char* text) { std::ofstream(file) << text; }
 
-struct Frame {
+struct FrameOnDisk {
   test::ScratchFolder folder;
   std::vector<fs::path> inputs{folder / "plate.0001.exr"};
   std::vector<fs::path> outputs{folder / "out.0001.exr", folder / "out.0001.png"};
 
-  Frame() {
+  FrameOnDisk() {
     write(inputs[0], "plate");
     for (const fs::path& output : outputs) write(output, "picture");
   }
@@ -35,7 +35,7 @@ struct Frame {
 }  // namespace
 
 TEST_CASE("a frame without a record is not done; with one it is") {
-  const Frame frame;
+  const FrameOnDisk frame;
   CHECK_FALSE(is_frame_done(frame.files()));
   REQUIRE(write_frame_record(frame.files()).has_value());
   CHECK(is_frame_done(frame.files()));
@@ -43,7 +43,7 @@ TEST_CASE("a frame without a record is not done; with one it is") {
 }
 
 TEST_CASE("other settings, other inputs and other outputs undo it") {
-  const Frame frame;
+  const FrameOnDisk frame;
   REQUIRE(write_frame_record(frame.files()).has_value());
   CHECK_FALSE(is_frame_done(frame.files("fnumber = 11")));
   SUBCASE("the input has another size") { write(frame.inputs[0], "another plate"); }
@@ -57,13 +57,13 @@ TEST_CASE("other settings, other inputs and other outputs undo it") {
 }
 
 TEST_CASE("no record is written of files that are not there, or where it cannot be") {
-  const Frame frame;
+  const FrameOnDisk frame;
   fs::remove(frame.outputs[0]);
   const auto written = write_frame_record(frame.files());
   REQUIRE_FALSE(written.has_value());
   CHECK(written.error().code == ErrorCode::Io);
 
-  const Frame other;
+  const FrameOnDisk other;
   write(other.folder / ".contrejour", "a file where the folder should be");
   CHECK_FALSE(write_frame_record(other.files()).has_value());
 }
