@@ -81,7 +81,7 @@ class Usage(ProgramTest):
                 [*render, "--ghost-ramp=-1e308:1,1,1/1e308:1,1,1"], [*render, "--colour", "1e300,1,1"],
                 [*render, "--pixel-aspect", "0"], [*render, "--pixel-aspect", "inf"],
                 [*render, "--colour", "mauve"], [*render, "--colour", "20K"], [*render, "--light", "1"],
-                [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4:5"], [*render, "--focus", "-1"],
+                [*render, "--light", "nan,0"], [*render, "--light", "1,2:3:D65:4:5:6"], [*render, "--focus", "-1"],
                 [*render, "--method", "magic"], [*render, "--device", "toaster"], [*render, "--grid", "3"],
                 [*render, "--wavelengths", "0"], [*render, "--wavelengths", "2.5"], [*render, "--threads", "-1"],
                 [*render, "--threads", "100000"], [*render, "--select", "best"], [*render, "--coating", "paint"],
