@@ -30,7 +30,7 @@ constexpr double kCounts = 0.3;    // of a ghost's bright level: what belongs to
 constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
 constexpr std::size_t kBrightest = 12;
 
-// What a picture of a ghost by itself says of it.
+// The figures of a ghost, taken from a picture of it alone.
 struct GhostMoments {
   double speed = 0, size = 0, flux = 0, peak = 0;  // peak: the bright level
 };
@@ -109,7 +109,7 @@ Comparison comparison_of(const LensState& lens, int width, int height, double s_
   return at;
 }
 
-// Those that lie within the picture, the brightest first.
+// The ghosts that lie within the picture, the brightest first.
 std::vector<TrueGhost> true_ghosts(const LensState& lens, const Comparison& at) {
   Light light;
   light.direction = direction_from_angles(std::atan(at.s), 0.0);

@@ -49,7 +49,7 @@ struct PredictOptions {
   params::Values values;
 };
 
-// What all kinds of prediction need.
+// The data that all kinds of prediction share.
 struct PredictScene {
   FlareSource source;
   LensState lens;  // its geometry

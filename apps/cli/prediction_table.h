@@ -11,7 +11,7 @@
 
 namespace contrejour::cli {
 
-// What was rated: a light, a view of a panorama, a frame.
+// One rated case: a light, a view of a panorama, a frame.
 struct PredictionRow {
   std::string subject;
   std::size_t lights = 0;

@@ -10,7 +10,7 @@
 
 namespace contrejour::cli {
 
-// What a picture file does not state; a RAW file states all of it.
+// Facts that a RAW file states and a picture file does not.
 struct MosaicFormat {
   BayerPattern pattern = BayerPattern::Rggb;
   std::optional<double> black_dn, white_dn;  // otherwise 0 and the type's largest value, or the RAW file's

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command takes where it asks for a lens: a bundled lens or a lens file, or a measured flare (`.flare.toml`).
+// The value of a LENS argument: a bundled lens or a lens file, or a measured flare (`.flare.toml`).
 #pragma once
 
 #include <string>

@@ -12,8 +12,8 @@ namespace contrejour::cli {
 
 [[nodiscard]] Result<void> write_station(const std::filesystem::path& file, const MergedStation& station);
 
-// What a finished file states of its station, without the pixels. Errors: those of read_picture(); a file that
-// write_station() did not write.
+// Reads the facts about its station from a finished file, without the pixels. Errors: those of read_picture(); a file
+// that write_station() did not write.
 struct StationFacts {
   double angle_deg = 0;
   std::optional<DirectFlux> direct;

@@ -11,7 +11,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-// What goes wrong in any stage, and where the run ends for that reason.
+// The frames that failed in any stage, and the one at which the run ends for that reason.
 class Failures {
  public:
   Failures(bool keep_going, const Context& context) : keep_going_(keep_going), context_(context) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes over the frames of a shot: lights and parameters with keys, read from a file (docs/formats/lights.md).
+// The lights and parameters that change over the frames of a shot, by keys in a file (docs/formats/lights.md).
 // Errors: Parse with file, line and remedy; Io. Thread-safety: plain values and pure functions.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What causes a flare: a configured lens, or a flare measured from photographs, which stands wherever a lens may.
+// The source of a flare: a configured lens, or a flare measured from photographs, which stands wherever a lens may.
 // Points of a measured flare's sensor are tangents of angles: it belongs to an ideal lens without distortion of a focal
 // length of 1 mm. A light's value is the sum of its direct image, as everywhere (docs/physics/radiometry.md).
 // Errors: InvalidArgument, Cancelled. Thread-safety: plain values, pure functions; the same bits for any number of

@@ -40,7 +40,7 @@ struct PanoramaLight {
                                                                const CameraView& view, const Frame& frame,
                                                                double focal_length_mm);
 
-// What that camera sees, by bilinear interpolation.
+// The picture that the camera sees, by bilinear interpolation.
 [[nodiscard]] CONTREJOUR_API Result<Image> view_of_panorama(const Image& panorama, const CameraView& view,
                                                             const Frame& frame, double focal_length_mm,
                                                             const Context& context = {});
