@@ -12,7 +12,7 @@ namespace contrejour::cli {
 
 [[nodiscard]] Result<void> write_station(const std::filesystem::path& file, const MergedStation& station);
 
-// Reads the facts about its station from a finished file, without the pixels. Errors: those of read_picture(); a file
+// The facts about a station that its finished file states, without the pixels. Errors: those of read_picture(); a file
 // that write_station() did not write.
 struct StationFacts {
   double angle_deg = 0;
