@@ -8,7 +8,7 @@
 
 #include "base/tasks.h"
 
-namespace contrejour::inline internal {
+namespace contrejour {
 namespace {
 
 // The frames that failed in any stage, and the one at which the run ends for that reason.
@@ -77,4 +77,4 @@ Result<std::vector<FrameFailure>> run_stages(const std::vector<int>& frames, con
   return std::move(failures).by_frame();
 }
 
-}  // namespace contrejour::inline internal
+}  // namespace contrejour

@@ -26,19 +26,21 @@ struct FrameFailure {
   Error error;
 };
 
-inline namespace internal {
+// The data of one frame, of any type.
 using FrameData = Result<std::shared_ptr<void>>;
+
+// The three functions of run_frames, for data of any type: each takes what the one before returned.
 struct FrameStages {
   std::function<FrameData(int frame)> read;
   std::function<FrameData(int frame, void* data, const Context& context)> render;
   std::function<Result<void>(int frame, void* data)> write;
 };
-// run_frames for data of any type.
+
+// run_frames for such functions.
 [[nodiscard]] CONTREJOUR_API Result<std::vector<FrameFailure>> run_stages(const std::vector<int>& frames,
                                                                           const FrameStages& stages,
                                                                           const RunFramesOptions& options,
                                                                           const Context& context);
-}  // namespace internal
 
 // Calls for each frame:
 //   Result<In> read(int frame), Result<Out> render(int frame, In& in, const Context&), Result<void> write(int frame,
