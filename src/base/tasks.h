@@ -28,7 +28,7 @@ bool ordered_pipeline_erased(std::size_t count, const Context& context,
                              const std::function<std::shared_ptr<void>(std::size_t)>& produce,
                              const std::function<void(std::size_t, void*)>& consume);
 
-// What one stage passes to the next; null where an item ends.
+// The data that one stage passes to the next; null where an item ends.
 using StageItem = std::shared_ptr<void>;
 // Makes an item's next form from its last one (null in the first stage).
 using Stage = std::function<StageItem(std::size_t i, StageItem item)>;

@@ -67,7 +67,7 @@ class TomlFields {
   // what: how errors call the table, e.g. "surface 3". An unknown key is an error at once.
   TomlFields(const toml::table& table, std::string what, std::initializer_list<std::string_view> known,
              TomlErrors& errors);
-  // Of a table whose keys the caller checks.
+  // For a table whose keys the caller checks.
   TomlFields(const toml::table& table, std::string what, TomlErrors& errors)
       : table_(table), what_(std::move(what)), errors_(errors) {}
 

@@ -26,16 +26,16 @@ namespace contrejour {
 struct FlareSweep {
   std::vector<double> angles_rad;  // of the head, as for the geometry
   std::function<Result<CapturedImage>(std::size_t station)> picture;
-  // Of the raw exposures, whose red and blue pixels lie beside the middle of a block: they are shifted there. None: the
-  // pictures' channels lie on one another.
+  // The mosaic of the raw exposures. Their red and blue pixels lie beside the middle of a block, and are shifted there.
+  // None: the pictures' channels lie on one another.
   std::optional<BayerPattern> pattern = std::nullopt;
   Rgb light{1, 1, 1};  // the sum of the light's direct image over the pixels of such a picture; its levels' unit
 };
 
 struct FlareFitOptions {
   int max_ghosts = 16;
-  // A ghost's edge must stand out by so many times the spread of what other places of the pictures show. Candidates
-  // that do are kept only if the fit to the pictures improves by more than chance.
+  // The contrast of a ghost's edge must be at least this multiple of the spread of contrasts elsewhere in the pictures.
+  // Candidates that reach it are kept only if the fit to the pictures improves by more than chance.
   double min_contrast = 2.0;
   int max_width = 320;  // pictures are reduced by whole numbers to at most this width
   double model_error = 0.1;  // of a pixel's value: what the model is not expected to describe
@@ -62,7 +62,7 @@ struct FittedFlare {
   MeasuredFlare flare;
   // Optical centre of the pictures: the ghosts determine it better than the light's images do.
   Vec2 centre_px;
-  // Of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil").
+  // The start of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil").
   std::vector<FoundGhost> found;
   std::vector<FitProgress> progress;  // of the last fit
   double image_evaluations = 0;  // in all

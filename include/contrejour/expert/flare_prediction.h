@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where flare will hurt: figures of a flare by itself and on its scene, as walch2018 3.5 names them, the glare
+// Predicts where flare will hurt: figures of a flare by itself and on its scene, as walch2018 3.5 names them, the glare
 // transmission of camera testers, and a map of them over all positions of a light, among which one is rated.
 // docs/physics/flare-prediction.md has the definitions. Figures are of luminance, in the scene's units (white at 1);
 // samples that are not finite are left out. A flare by itself is an image that contains no direct image of a light.
@@ -36,7 +36,7 @@ struct FlareFigures {
 // walch2018 3.5, with the scene. Contrast is Michelson's of the 1st and 99th percentiles, (p99 - p1) / (p99 + p1).
 struct SceneFigures {
   double log_average_ratio = 0;  // of the scene over that of the flare: small where the flare dazzles
-  double brightening = 1;        // log average of the scene with flare over that without
+  double brightening = 1;  // log average of the scene with flare over that without
   double contrast_without = 0, contrast_with = 0;
   double contrast_kept = 1;  // contrast with flare over contrast without; 1 for a scene without contrast
 };
@@ -50,7 +50,7 @@ struct GlareFigures {
 
 struct FigureSettings {
   ColourSpace space = ColourSpace::Rec709;
-  double white = 1.0;           // > 0
+  double white = 1.0;  // > 0
   double covered_level = 0.01;  // of white: from there on, a pixel counts as covered
 };
 
@@ -69,10 +69,10 @@ struct FigureSettings {
 [[nodiscard]] CONTREJOUR_API Result<GlareFigures> glare_of(const Image& flare, double level_of_direct_image,
                                                            ColourSpace space);
 
-// Where a value lies among others.
+// The position of a value among others.
 struct Rating {
   double in_range = 0;  // 0 at their smallest, 1 at their largest; beyond these outside 0 to 1
-  double rank = 0;      // fraction of them below it, equal ones counted half
+  double rank = 0;  // fraction of them below it, equal ones counted half
 };
 // Errors: there are no others.
 [[nodiscard]] CONTREJOUR_API Result<Rating> rating_of(double value, std::span<const double> others);
@@ -90,25 +90,25 @@ struct LightFigures {
 
 // Positions of a light: `angles` from the axis, evenly spaced up to the largest, in each of `directions`.
 struct LightMapSettings {
-  double to_rad = 0;        // 0: what largest_light_angle() says
-  int angles = 31;          // the axis included, >= 2
-  int directions = 7;       // in a quarter, both ends included, >= 2
-  Light light;              // its direction is replaced; its radius is that of the direct image, 0.25 degrees if 0
+  double to_rad = 0;  // 0: what largest_light_angle() says
+  int angles = 31;  // the axis included, >= 2
+  int directions = 7;  // in a quarter, both ends included, >= 2
+  Light light;  // its direction is replaced; its radius is that of the direct image, 0.25 degrees if 0
   MethodOptions method = AdaptiveOptions{};
-  FrameSettings frame;      // a whole frame
+  FrameSettings frame;  // a whole frame
   FigureSettings figures;
 };
 
 struct LightMapPoint {
-  double angle_rad = 0;      // from the axis
+  double angle_rad = 0;  // from the axis
   double direction_rad = 0;  // 0 to the right, anticlockwise as the photographer sees it
   LightFigures figures;
 };
 
 struct LightMap {
   std::vector<LightMapPoint> points;  // the axis, then direction by direction from the axis outwards
-  int angles = 0, directions = 0;     // points = 1 + directions * (angles - 1)
-  bool is_quarter = false;            // directions from 0 to 90 degrees, the others by symmetry; else all around
+  int angles = 0, directions = 0;  // points = 1 + directions * (angles - 1)
+  bool is_quarter = false;  // directions from 0 to 90 degrees, the others by symmetry; else all around
   double to_rad = 0;
 };
 

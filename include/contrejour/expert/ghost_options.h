@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an artist changes about ghosts: gains, colours and positions. The defaults are physically right.
+// An artist's changes of ghosts: gains, colours and positions. The defaults are physically right.
 // Gains, and colours per channel, are at least 0; 1 changes nothing. Thread-safety: plain values.
 #pragma once
 

@@ -14,7 +14,7 @@
 
 namespace contrejour {
 
-// What a flare is drawn for: given lights, or also those of a photograph, whose exposure they are in already.
+// The lights that a flare is drawn for: given ones, or also those of a photograph, whose exposure they are in already.
 enum class MeasuredUse { Lights, Photograph };
 
 // Errors: a value for an option that a measured flare cannot follow, such as the lens's focal length, iris, coatings or

@@ -19,7 +19,7 @@
 
 namespace contrejour {
 
-// Where a camera looks: to the right, up, and turned anticlockwise about its axis.
+// The direction of a camera: to the right, up, and turned anticlockwise about its axis.
 struct CameraView {
   double azimuth_rad = 0, elevation_rad = 0, roll_rad = 0;
 };
