@@ -27,7 +27,8 @@ Result<FrameValues> FrameValues::create(const std::string& file, params::Values 
 params::Values FrameValues::at(int frame) const {
   if (!animation_) return whole_;
   params::Values values = command_line_.over(parameters_at(*animation_, frame)).over(whole_);
-  add_lights_at(*animation_, frame, values);
+  const Shutter shutter{values.number("shutter-angle"), *values.text("shutter-offset") == "centre"};
+  add_lights_at(*animation_, frame, values, shutter);
   return values;
 }
 

@@ -26,6 +26,8 @@ class FrameValues {
   [[nodiscard]] params::Values at(int frame) const;
   // For a picture without a number: the values of the first frame that has a key.
   [[nodiscard]] params::Values of_still() const;
+  // Whether the file has lights, on or off; then there is none by default.
+  [[nodiscard]] bool have_lights() const { return animation_ && !animation_->lights.empty(); }
   [[nodiscard]] bool may_change_lens() const { return animation_ && !animation_->parameters.empty(); }
 
  private:

@@ -55,11 +55,11 @@ Result<int> apply_to_still(const ApplyOptions& options) {
   const LongTask task("writing", 0);
   if (auto ok = write_photograph(*flared, task.context()); !ok) return tl::unexpected(ok.error());
   if (options.json) {
-    print_json(photograph_json(*flared));
+    print_json(frame_json(*flared));
   } else {
     const FlarePlan& plan = flared->planned.plan;
     print_summary(report_text(plan) + visibility_text(flared->flare.visibility, plan.lights.size()) +
-                  photograph_text(*flared));
+                  frame_text(*flared));
   }
   return kDone;
 }
@@ -99,14 +99,15 @@ void add_apply(CLI::App& app, Action& action) {
       "the detected lights: an EXR of their pixels, or a PNG of the picture in grey with each light in a colour");
   add_output(*command, "--preview", options->preview, {".png"}, "a preview of the result as PNG");
   command->add_flag("--json", options->json, "print the report on the detected lights as JSON");
-  add_sequence_options(*command, *sequence);
+  add_sequence_options(*command, *sequence, SequenceInput::Files);
   add_preset_options(*command, options->preset);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"detect", "region", "threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape",
                   "spectrum", "gain", "stops"});
   add_parameters(*command, options->values,
-                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
+                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",
+                  "shutter-angle", "shutter-offset"});
   add_animation_option(*command, options->lights);
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov", "pixel-aspect"});

@@ -91,7 +91,7 @@ Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) 
   return ok ? outputs.commit() : ok;
 }
 
-Json photograph_json(const FlaredPhotograph& flared) {
+Json frame_json(const FlaredPhotograph& flared) {
   const auto& [options, lens, outputs, files, picture, plan] = flared.planned;
   Json json = {{"lens", lens->name}, {"input", options.input}, {"output", options.output}};
   json.update(report_json(plan));
@@ -100,18 +100,10 @@ Json photograph_json(const FlaredPhotograph& flared) {
   return json;
 }
 
-std::string photograph_text(const FlaredPhotograph& flared) {
+std::string frame_text(const FlaredPhotograph& flared) {
   const RenderStatistics& statistics = flared.flare.statistics;
   return fmt::format("{}: {} ghosts, {:.2f} s\n", flared.planned.options.output, statistics.ghosts_rendered,
                      total_ms(statistics) / 1000.0);
-}
-
-Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source) {
-  if (const auto* flare = std::get_if<MeasuredFlare>(&source)) return SourceRenderer(*flare);
-  auto renderer = Renderer::create(params::method_options(values));
-  if (!renderer) return tl::unexpected(renderer.error());
-  if (auto set = renderer->set_lens(std::get<LensState>(source)); !set) return tl::unexpected(set.error());
-  return SourceRenderer(std::move(*renderer));
 }
 
 }  // namespace contrejour::cli

@@ -5,16 +5,14 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "cli/console.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
+#include "cli/source_renderer.h"
 #include "contrejour/apply.h"
 #include "contrejour/context.h"
-#include "contrejour/expert/flare_source.h"
-#include "contrejour/renderer.h"
 
 namespace contrejour::cli {
 
@@ -54,10 +52,6 @@ struct FlaredPhotograph {
 [[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options,
                                                         std::shared_ptr<const LensState> lens, Picture picture);
 
-// A renderer that has the lens and the options' method, or a measured flare.
-using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
-[[nodiscard]] Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source);
-
 // The plan's warnings then include those of lights beyond a measured flare's angles.
 [[nodiscard]] Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                                          const Context& context);
@@ -65,7 +59,7 @@ using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
 // Adds the flare to the photograph and writes all files: all appear, or none.
 [[nodiscard]] Result<void> write_photograph(FlaredPhotograph& flared, const Context& context);
 
-[[nodiscard]] Json photograph_json(const FlaredPhotograph& flared);
-[[nodiscard]] std::string photograph_text(const FlaredPhotograph& flared);
+[[nodiscard]] Json frame_json(const FlaredPhotograph& flared);
+[[nodiscard]] std::string frame_text(const FlaredPhotograph& flared);
 
 }  // namespace contrejour::cli

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/frame_lens.h"
+#include "cli/frame_report.h"
 #include "cli/long_task.h"
 #include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/run_frames.h"
@@ -19,11 +19,8 @@ namespace {
 Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameValues& values, int frame) {
   ApplyOptions own = options;
   own.values = values.at(frame);
-  for (std::string* name : {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}) {
-    auto numbered = name_of_frame(*name, frame);
-    if (!numbered) return tl::unexpected(numbered.error());
-    *name = std::move(*numbered);
-  }
+  if (auto ok = number_names(frame, {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}); !ok)
+    return tl::unexpected(ok.error());
   own.preset.save.clear();
   return own;
 }
@@ -32,11 +29,7 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
 FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
   SettingsRecord settings = settings_record("apply", own.lens, own.values);
   settings.text += fmt::format("layer = {}\npart = {}\n", own.read.layer, own.read.part);
-  FrameFiles files{std::move(settings.text), std::move(settings.files), {}};
-  if (!is_missing) files.inputs.emplace_back(own.input);
-  for (const std::string& output : own.outputs())
-    if (!output.empty()) files.outputs.emplace_back(output);
-  return files;
+  return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 
 // Reads frames, all of which must have the first one's size.
@@ -96,35 +89,6 @@ class FrameReader {
   std::optional<Picture> black_;
 };
 
-// Prints a line for each frame, and each warning once.
-class FrameReport {
- public:
-  explicit FrameReport(bool json) : json_(json) {}
-
-  void add(int frame, const FlaredPhotograph& flared) {
-    for (const std::string& warning : flared.planned.plan.warnings)
-      if (said_.insert(warning).second) print_warnings({warning});
-    if (!json_) return print_summary(photograph_text(flared));
-    Json json = {{"frame", frame}};
-    json.update(photograph_json(flared));
-    print(json_line(json));
-  }
-
- private:
-  bool json_;
-  std::set<std::string> said_;
-};
-
-// The preset of the whole sequence.
-Result<void> save_preset(const ApplyOptions& options) {
-  Outputs outputs;
-  const auto file = outputs.add(options.preset.save);
-  if (!file) return tl::unexpected(file.error());
-  if (*file == nullptr) return {};
-  if (auto ok = (*file)->write(params::write_preset({{}, {}, options.lens, options.values})); !ok) return ok;
-  return outputs.commit();
-}
-
 }  // namespace
 
 Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& values,
@@ -132,11 +96,11 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& va
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
   auto sequence = frames_of_sequence(sequence_options, options.input);
   if (!sequence) return tl::unexpected(sequence.error());
-  auto lens = FrameLens::create(options.lens, values, sequence->frames.front());
+  auto lens = FrameLens::create(options.lens, values, sequence->frames.front(), MeasuredUse::Photograph);
   if (!lens) return tl::unexpected(lens.error());
   auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
   if (!renderer) return tl::unexpected(renderer.error());
-  if (auto ok = save_preset(options); !ok) return tl::unexpected(ok.error());
+  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   const auto is_missing = [&](int frame) { return sequence->missing.contains(frame); };
   std::vector<int> frames = sequence->frames;
@@ -154,9 +118,8 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& va
     return render_photograph(std::move(planned), renderer->get(), context);
   };
   const auto write = [&](int frame, FlaredPhotograph& flared) -> Result<void> {
-    Context quiet = task.context();
-    quiet.progress = {};
-    if (auto ok = write_photograph(flared, quiet); !ok) return ok;
+    if (auto ok = write_photograph(flared, without_progress(task.context())); !ok) return ok;
+    report.warn(flared.planned.plan.warnings);
     report.add(frame, flared);
     return write_frame_record(files_of(flared.planned.options, is_missing(frame)));
   };

@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "cli/lens_choice.h"
-#include "cli/source_choice.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
@@ -13,8 +12,9 @@ FrameLens::FrameLens(std::string name, FlareSource first, bool may_change)
     : name_(std::move(name)), first_source_(std::make_shared<const FlareSource>(std::move(first))),
       first_lens_(std::make_shared<const LensState>(geometry_of(*first_source_))), may_change_(may_change) {}
 
-Result<FrameLens> FrameLens::create(const std::string& lens, const FrameValues& values, int first_frame) {
-  auto first = open_source(lens, values.at(first_frame), MeasuredUse::Photograph);
+Result<FrameLens> FrameLens::create(const std::string& lens, const FrameValues& values, int first_frame,
+                                    MeasuredUse use) {
+  auto first = open_source(lens, values.at(first_frame), use);
   if (!first) return tl::unexpected(first.error());
   const bool may_change = values.may_change_lens() && std::holds_alternative<LensState>(*first);
   return FrameLens(lens, std::move(*first), may_change);

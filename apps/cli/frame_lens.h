@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "cli/animation_option.h"
-#include "cli/apply_frame.h"
-#include "contrejour/expert/flare_source.h"
+#include "cli/source_choice.h"
+#include "cli/source_renderer.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::cli {
@@ -16,7 +16,8 @@ namespace contrejour::cli {
 class FrameLens {
  public:
   // Prints the warnings of the lens as configured for the first frame.
-  [[nodiscard]] static Result<FrameLens> create(const std::string& lens, const FrameValues& values, int first_frame);
+  [[nodiscard]] static Result<FrameLens> create(const std::string& lens, const FrameValues& values, int first_frame,
+                                                MeasuredUse use);
 
   [[nodiscard]] const FlareSource& first_source() const { return *first_source_; }
 

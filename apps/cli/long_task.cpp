@@ -19,6 +19,11 @@ constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
 
 }  // namespace
 
+Context without_progress(Context context) {
+  context.progress = {};
+  return context;
+}
+
 LongTask::LongTask(std::string label, int threads)
     : label_(std::move(label)), started_(std::chrono::steady_clock::now()), drawn_(started_) {
   context_.threads = threads;

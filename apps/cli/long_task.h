@@ -9,6 +9,9 @@
 
 namespace contrejour::cli {
 
+// The same without a report: for the short steps within a longer one.
+[[nodiscard]] Context without_progress(Context context);
+
 class LongTask {
  public:
   // label: the text of the bar, e.g. "rendering". There is no bar if the standard error is not a terminal.

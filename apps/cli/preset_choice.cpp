@@ -2,6 +2,7 @@
 #include "cli/preset_choice.h"
 
 #include "cli/options.h"
+#include "cli/outputs.h"
 
 namespace contrejour::cli {
 
@@ -26,6 +27,15 @@ Result<void> fill_from_preset(const PresetOptions& options, std::string& lens, p
   if (lens.empty()) lens = preset->lens;
   if (!lens.empty()) return {};
   return failure(ErrorCode::InvalidArgument, "the preset names no lens; give a LENS (`contrejour lens list`)");
+}
+
+Result<void> save_preset(const PresetOptions& options, const std::string& lens, const params::Values& values) {
+  Outputs outputs;
+  const auto file = outputs.add(options.save);
+  if (!file) return tl::unexpected(file.error());
+  if (*file == nullptr) return {};
+  if (auto ok = (*file)->write(params::write_preset({{}, {}, lens, values})); !ok) return ok;
+  return outputs.commit();
 }
 
 }  // namespace contrejour::cli

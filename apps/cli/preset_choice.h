@@ -24,4 +24,8 @@ void add_preset_options(CLI::App& command, PresetOptions& options);
 // lens given anywhere.
 [[nodiscard]] Result<void> fill_from_preset(const PresetOptions& options, std::string& lens, params::Values& values);
 
+// Writes the file of --save-preset, if there is one.
+[[nodiscard]] Result<void> save_preset(const PresetOptions& options, const std::string& lens,
+                                       const params::Values& values);
+
 }  // namespace contrejour::cli

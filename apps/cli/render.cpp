@@ -4,22 +4,17 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "cli/animation_option.h"
 #include "cli/command.h"
 #include "cli/console.h"
-#include "cli/flare_report.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
-#include "cli/outputs.h"
 #include "cli/preset_choice.h"
+#include "cli/render_frame.h"
+#include "cli/render_sequence.h"
+#include "cli/sequence_options.h"
 #include "cli/source_choice.h"
-#include "contrejour/expert/pixel_grid.h"
-#include "contrejour/expert/preview_exposure.h"
-#include "contrejour/expert/settings.h"
-#include "contrejour/image_io.h"
-#include "contrejour/render.h"
 
 namespace contrejour::cli {
 namespace {
@@ -35,118 +30,71 @@ constexpr const char* kRenderExamples =
     "  contrejour render nikon-80-200 --light-at 0.7,0.33:5000:3200K --light-at 0.2,0.8:900 --size 960x540 -o f.exr\n"
     "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json\n"
     "  contrejour render mine.flare.toml --light 12,5:20000 --hfov 60 -o flare.exr\n"
-    "  contrejour render --preset old-portrait --blades 7 -o flare.exr --save-preset mine.toml";
+    "  contrejour render --preset old-portrait --blades 7 -o flare.exr --save-preset mine.toml\n"
+    "  contrejour render heliar -o flare.####.exr --frames 1-48 --lights lights.toml";
 
-struct RenderOptions {
-  std::string lens, output, preview, stats;
-  PresetOptions preset;
-  params::Values values;
-};
-
-struct RenderFiles {
-  OutputFile* output = nullptr;
-  OutputFile *preview = nullptr, *stats = nullptr, *preset = nullptr;  // null where not requested
-};
-
-Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& outputs) {
-  RenderFiles files;
-  const std::pair<const std::string&, OutputFile*&> all[] = {{options.output, files.output},
-                                                             {options.preview, files.preview},
-                                                             {options.stats, files.stats},
-                                                             {options.preset.save, files.preset}};
-  if (auto ok = outputs.add_all(all); !ok) return tl::unexpected(ok.error());
-  return files;
-}
-
-struct RenderedFlare {
-  Flare flare;
-  double pixel_aspect = 1.0;
-};
-
-Result<RenderedFlare> render_flare(const RenderOptions& options) {
-  const params::Values& values = options.values;
-  const auto source = open_source(options.lens, values, MeasuredUse::Lights);
+Result<int> render_still(const RenderOptions& options) {
+  const auto source = open_source(options.lens, options.values, MeasuredUse::Lights);
   if (!source) return tl::unexpected(source.error());
-  const LensState lens = geometry_of(*source);
-  const params::PixelSize size = *params::parse_size(*values.text("size"));
-  const PixelWindow window{0, 0, size.width, size.height};
-  const double aspect = values.real("pixel-aspect").value_or(squeeze_of(lens));
-  const auto grid = pixel_grid(values, lens, window, window, aspect);
-  if (!grid) return tl::unexpected(grid.error());
-  const Frame& frame = grid->frame;
-  const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
-  const auto lights = scaled_lights(*source, params::lights(values, lens, frame, space), values);
-  if (!lights) return tl::unexpected(lights.error());
-  const LongTask task("rendering", values.integer("threads"));
-  auto flare = render(params::method_options(values), *source, *lights, params::frame_settings(values, frame, space),
-                      task.context());
-  if (!flare) return tl::unexpected(flare.error());
-  auto image = picture_of_flare(std::move(flare->image), *grid);
-  if (!image) return tl::unexpected(image.error());
-  flare->image = std::move(*image);
-  return RenderedFlare{std::move(*flare), aspect};
-}
-
-Result<void> write_flare(const RenderOptions& options, const RenderFiles& files, const RenderedFlare& rendered,
-                         const Context& context) {
-  const Flare& flare = rendered.flare;
-  const PreviewSettings preview =
-      params::preview_settings(options.values, flare.image, params::DefaultExposure::Automatic);
-  if (lower_extension(options.output) == ".png") {
-    if (auto ok = write_preview_png(*files.output, flare.image, preview, context); !ok) return ok;
-  } else {
-    Picture picture = picture_of(flare.image);
-    set_colour_space(picture, params::colour_space(options.values, ColourSpace::Rec709));
-    set_pixel_aspect(picture, rendered.pixel_aspect);
-    if (auto ok = write_picture(*files.output, picture, context); !ok) return ok;
-  }
-  if (files.preview) {
-    if (auto ok = write_preview_png(*files.preview, flare.image, preview, context); !ok) return ok;
-  }
-  if (files.preset) {
-    if (auto ok = files.preset->write(params::write_preset({{}, {}, options.lens, options.values})); !ok) return ok;
-  }
-  if (files.stats) return files.stats->write(json_text(stats_json(flare.statistics)));
-  return {};
-}
-
-Result<int> run_render(RenderOptions options) {
-  if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
-    return tl::unexpected(ok.error());
-  Outputs outputs;
-  const auto files = open_render_files(options, outputs);
-  if (!files) return tl::unexpected(files.error());
-  const auto rendered = render_flare(options);
+  auto planned = plan_frame(options, *source, std::make_shared<const LensState>(geometry_of(*source)));
+  if (!planned) return tl::unexpected(planned.error());
+  print_warnings(planned->warnings);
+  auto renderer = renderer_of(options.values, *source);
+  if (!renderer) return tl::unexpected(renderer.error());
+  auto rendered = [&] {
+    const LongTask task("rendering", options.values.integer("threads"));
+    return render_frame(std::move(*planned), *renderer, task.context());
+  }();
   if (!rendered) return tl::unexpected(rendered.error());
   const LongTask task("writing", 0);
-  if (auto ok = write_flare(options, *files, *rendered, task.context()); !ok) return tl::unexpected(ok.error());
-  if (auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
-  print_summary(fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", options.output, rendered->flare.image.width,
-                            rendered->flare.image.height, rendered->flare.statistics.ghosts_rendered,
-                            total_ms(rendered->flare.statistics) / 1000.0));
+  if (auto ok = write_frame(*rendered, task.context()); !ok) return tl::unexpected(ok.error());
+  if (options.json) {
+    print_json(frame_json(*rendered));
+  } else {
+    print_summary(frame_text(*rendered));
+  }
   return kDone;
+}
+
+Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
+  const params::Values command_line = options.values;
+  if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
+    return tl::unexpected(ok.error());
+  const auto values = FrameValues::create(options.lights, command_line, options.values);
+  if (!values) return tl::unexpected(values.error());
+  options.needs_light = !values->have_lights();
+  if (!sequence.frames.empty()) return render_sequence(options, *values, sequence);
+  if (is_sequence(options.output))
+    return failure(ErrorCode::InvalidArgument, "a sequence needs its frames: --frames 1-48", {options.output});
+  options.values = values->of_still();
+  return render_still(options);
 }
 
 }  // namespace
 
 void add_render(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
+  const auto sequence = std::make_shared<SequenceOptions>();
   CLI::App* command = app.add_subcommand("render", "render the flare of lights in a lens as an image");
   add_lens_argument(*command, options->lens)->required(false);
   add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the image of the flare")->required();
   add_output(*command, "--preview", options->preview, {".png"}, "a preview as PNG");
   add_output(*command, "--stats", options->stats, {".json"}, "statistics of the rendering: times and counts");
+  command->add_flag("--json", options->json, "print a report as JSON; in a sequence, one line for each frame");
+  add_sequence_options(*command, *sequence, SequenceInput::None);
   add_preset_options(*command, options->preset);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
-                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter"});
+                 {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",
+                  "shutter-angle", "shutter-offset"});
+  add_animation_option(*command, options->lights);
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov", "pixel-aspect"});
   add_rendering_parameters(*command, options->values);
   command->footer(kRenderExamples);
-  command->callback([options, &action] {
+  command->callback([options, sequence, &action] {
     if (options->lens.empty() && options->preset.name.empty()) throw CLI::RequiredError("LENS");
-    action = [options] { return run_render(*options); };
+    action = [options, sequence] { return run_render(*options, *sequence); };
   });
 }
 

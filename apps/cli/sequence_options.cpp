@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kGroup = "Sequences";
+
 bool is_file(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error);
@@ -37,15 +39,7 @@ Result<std::vector<int>> requested_frames(const SequenceOptions& options, const 
   return frames;
 }
 
-}  // namespace
-
-void add_sequence_options(CLI::App& command, SequenceOptions& options) {
-  constexpr const char* kGroup = "Sequences";
-  command
-      .add_option("--frames", options.frames,
-                  "the frames to render, e.g. 1001-1240, 1001-1100x2,1200 (default: all that are there)")
-      ->option_text("RANGE")
-      ->group(kGroup);
+void add_missing_option(CLI::App& command, SequenceOptions& options) {
   command
       .add_option("--missing", options.missing,
                   "what to do about frames whose input is missing: stop, leave them out, or take a black picture "
@@ -53,6 +47,18 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
       ->check(CLI::IsMember({"error", "skip", "black"}))
       ->option_text("error|skip|black")
       ->group(kGroup);
+}
+
+}  // namespace
+
+void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input) {
+  command
+      .add_option("--frames", options.frames,
+                  fmt::format("the frames to render, e.g. 1001-1240, 1001-1100x2,1200{}",
+                              input == SequenceInput::Files ? " (default: all that are there)" : ""))
+      ->option_text("RANGE")
+      ->group(kGroup);
+  if (input == SequenceInput::Files) add_missing_option(command, options);
   command
       .add_flag("--resume", options.resume, "keep frames that were finished with the same settings from the same files")
       ->group(kGroup);
@@ -66,6 +72,15 @@ Result<std::string> name_of_frame(const std::string& name, int frame) {
   const auto pattern = parse_frame_pattern(name);
   if (!pattern) return tl::unexpected(pattern.error());
   return file_of_frame(*pattern, frame).string();
+}
+
+Result<void> number_names(int frame, std::initializer_list<std::string*> names) {
+  for (std::string* name : names) {
+    auto numbered = name_of_frame(*name, frame);
+    if (!numbered) return tl::unexpected(numbered.error());
+    *name = std::move(*numbered);
+  }
+  return {};
 }
 
 Result<void> check_sequence_outputs(std::span<const std::string> outputs) {
@@ -112,6 +127,14 @@ SettingsRecord settings_record(const std::string& command, const std::string& le
     }
   }
   return record;
+}
+
+FrameFiles frame_files(SettingsRecord settings, const std::string& input, std::span<const std::string> outputs) {
+  FrameFiles files{std::move(settings.text), std::move(settings.files), {}};
+  if (!input.empty()) files.inputs.emplace_back(input);
+  for (const std::string& output : outputs)
+    if (!output.empty()) files.outputs.emplace_back(output);
+  return files;
 }
 
 void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame)>& is_done) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <set>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/expert/run_frames.h"
 #include "contrejour/result.h"
@@ -19,20 +21,26 @@
 namespace contrejour::cli {
 
 struct SequenceOptions {
-  std::string frames;             // a range; empty: all frames on disk
+  std::string frames;             // a range; empty: all frames on disk, or a still
   std::string missing = "error";  // or "skip", "black"
   bool resume = false;
   bool keep_going = false;
 };
 
-// Adds --frames, --missing, --resume and --keep-going.
-void add_sequence_options(CLI::App& command, SequenceOptions& options);
+// Whether frames are read from files, which may be missing.
+enum class SequenceInput { None, Files };
+
+// Adds --frames, --resume, --keep-going and, for files, --missing.
+void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
 
 // True for a name with a place for the number of a frame, unless a file has exactly this name.
 [[nodiscard]] bool is_sequence(const std::string& name);
 
 // A name without a place for the number is the same for all frames.
 [[nodiscard]] Result<std::string> name_of_frame(const std::string& name, int frame);
+
+// Replaces each name by that of the frame.
+[[nodiscard]] Result<void> number_names(int frame, std::initializer_list<std::string*> names);
 
 // Errors: InvalidArgument for an output without a place for the number of a frame, which each frame would overwrite.
 [[nodiscard]] Result<void> check_sequence_outputs(std::span<const std::string> outputs);
@@ -53,6 +61,10 @@ struct SettingsRecord {
 };
 [[nodiscard]] SettingsRecord settings_record(const std::string& command, const std::string& lens,
                                              const params::Values& values);
+
+// The files of a frame for its record (frame_record.h). input: empty for none; outputs: empty names are left out.
+[[nodiscard]] FrameFiles frame_files(SettingsRecord settings, const std::string& input,
+                                     std::span<const std::string> outputs);
 
 // Leaves out the frames that are done; says how many.
 void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame)>& is_done);

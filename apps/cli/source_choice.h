@@ -17,12 +17,16 @@ namespace contrejour::cli {
 
 [[nodiscard]] const std::string& name_of(const FlareSource& source);
 
-// The same lights; with a measured flare in the exposure that the values state (walch2018 eq. 2), and with warnings for
-// those beyond the measured angles. Errors: those of exposure_scale().
+// The same lights; with a measured flare in the exposure that the values state (walch2018 eq. 2). Errors: those of
+// exposure_scale().
+[[nodiscard]] Result<std::vector<Light>> exposed_lights(const FlareSource& source, Result<std::vector<Light>> lights,
+                                                        const params::Values& values);
+
+// The warnings for lights beyond a measured flare's angles; none for a lens.
+[[nodiscard]] std::vector<std::string> range_warnings_of(const FlareSource& source, const std::vector<Light>& lights);
+
+// exposed_lights(), which prints these warnings.
 [[nodiscard]] Result<std::vector<Light>> scaled_lights(const FlareSource& source, Result<std::vector<Light>> lights,
                                                        const params::Values& values);
-
-// Warns of lights beyond the measured angles.
-void print_range_warnings(const FlareSource& source, const std::vector<Light>& lights);
 
 }  // namespace contrejour::cli

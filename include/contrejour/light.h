@@ -57,6 +57,8 @@ inline constexpr double kMaxLightValue = 1e16;
 
 // The direction of a light with an offset from this one, to the right and up, in tangents of the angles.
 [[nodiscard]] CONTREJOUR_API Vec3 offset_direction(Vec3 direction, Vec2 tangents);
+// The inverse of offset_direction, for two directions less than 90 degrees apart.
+[[nodiscard]] CONTREJOUR_API Vec2 tangents_between(Vec3 direction, Vec3 other);
 // As offset_direction, for a light at any distance; its distance from the first vertex is unchanged.
 [[nodiscard]] CONTREJOUR_API LightSource offset_source(const LightSource& source, Vec2 tangents);
 

@@ -39,6 +39,18 @@ Result<void> check_shape(const LightShape& shape) {
   return {};
 }
 
+// Unit vectors as the photographer sees them.
+struct LightAxes {
+  Vec3 towards_light, right, up;
+};
+
+LightAxes axes_about(Vec3 direction) {
+  const Vec3 towards_light = -normalized(direction);
+  const Vec3 right = cross_product(towards_light, {0.0, 1.0, 0.0});
+  const Vec3 unit_right = length(right) > 1e-12 ? normalized(right) : Vec3{1.0, 0.0, 0.0};
+  return {towards_light, unit_right, cross_product(unit_right, towards_light)};
+}
+
 bool is_visible_spectrum(const Spectrum& spectrum) {
   if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return is_visible(*table);
   const auto* const body = std::get_if<BlackBody>(&spectrum);
@@ -94,11 +106,15 @@ LightShape coarser(const LightShape& shape, int by) {
 }
 
 Vec3 offset_direction(Vec3 direction, Vec2 tangents) {
-  const Vec3 towards_light = -normalized(direction);
-  Vec3 right = cross_product(towards_light, {0.0, 1.0, 0.0});
-  right = length(right) > 1e-12 ? normalized(right) : Vec3{1.0, 0.0, 0.0};
-  const Vec3 up = cross_product(right, towards_light);
+  const auto [towards_light, right, up] = axes_about(direction);
   return -normalized(towards_light + right * tangents.x + up * tangents.y);
+}
+
+Vec2 tangents_between(Vec3 direction, Vec3 other) {
+  const auto [towards_light, right, up] = axes_about(direction);
+  const Vec3 towards_other = -other;
+  const double along = dot(towards_other, towards_light);
+  return {dot(towards_other, right) / along, dot(towards_other, up) / along};
 }
 
 LightSource offset_source(const LightSource& source, Vec2 tangents) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sequence/keyed_value.h"
 
@@ -15,11 +17,45 @@ namespace {
 using params::Kind;
 using params::Parameter;
 
+constexpr int kPathPositions = 9;  // odd, so that one is in the middle
+
+// Evenly spaced times from the opening of the shutter to its closing; one if it is open for no time.
+std::vector<double> exposure_times(double frame, Shutter shutter) {
+  const double open = shutter.angle_deg / 360.0;
+  if (!(open > 0.0)) return {frame};
+  const double from = shutter.centred ? frame - 0.5 * open : frame;
+  std::vector<double> times;
+  for (int k = 0; k < kPathPositions; ++k) times.push_back(from + open * k / (kPathPositions - 1));
+  return times;
+}
+
+// "A,B/A,B/...", or one position where it does not move.
+std::string path_text(const KeyedValue& position, std::span<const double> times) {
+  std::vector<std::string> path;
+  for (const double time : times) path.push_back(text_at(position, time));
+  if (std::all_of(path.begin(), path.end(), [&](const std::string& at) { return at == path.front(); }))
+    return path.front();
+  return fmt::format("{}", fmt::join(path, "/"));
+}
+
+// The mean over evenly spaced times, by the trapezoidal rule; a text is that of the middle.
+std::string mean_text(const KeyedValue& value, std::span<const double> times) {
+  if (value.keys.front().numbers.empty() || times.size() == 1) return text_at(value, times[times.size() / 2]);
+  std::vector<double> mean(value.keys.front().numbers.size());
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double weight = (k == 0 || k + 1 == times.size() ? 0.5 : 1.0) / static_cast<double>(times.size() - 1);
+    const std::vector<double> numbers = numbers_at(value, times[k]);
+    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += weight * numbers[c];
+  }
+  return fmt::format("{}", fmt::join(mean, ","));
+}
+
 // "A,B:VALUE:COLOUR:SIZE:DISTANCE", without the parts that are missing at its end.
-std::string light_text(const AnimatedLight& light, double frame) {
-  std::string text = text_at(light.position, frame);
-  for (const std::optional<KeyedValue>* part : {&light.value, &light.colour, &light.size_deg, &light.distance})
-    text += part->has_value() ? ":" + text_at(**part, frame) : ":";
+std::string light_text(const AnimatedLight& light, std::span<const double> times) {
+  std::string text = path_text(light.position, times);
+  text += light.value ? ":" + mean_text(*light.value, times) : ":";
+  for (const std::optional<KeyedValue>* part : {&light.colour, &light.size_deg, &light.distance})
+    text += part->has_value() ? ":" + text_at(**part, times[times.size() / 2]) : ":";
   text.erase(text.find_last_not_of(':') + 1);
   return text;
 }
@@ -51,10 +87,11 @@ params::Values parameters_at(const Animation& animation, double frame) {
   return values;
 }
 
-void add_lights_at(const Animation& animation, double frame, params::Values& values) {
+void add_lights_at(const Animation& animation, double frame, params::Values& values, Shutter shutter) {
+  const std::vector<double> times = exposure_times(frame, shutter);
   for (const AnimatedLight& light : animation.lights) {
     if (light.on && text_at(*light.on, frame) == "off") continue;
-    static_cast<void>(values.set(light.by_direction ? "light" : "light-at", light_text(light, frame)));
+    static_cast<void>(values.set(light.by_direction ? "light" : "light-at", light_text(light, times)));
   }
 }
 

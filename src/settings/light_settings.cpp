@@ -2,10 +2,13 @@
 // Values -> lights, and the settings of light detection.
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "contrejour/expert/moving_light.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/trace.h"
 #include "settings/photometry.h"
@@ -65,29 +68,37 @@ struct LightMaker {
                       {values.number("iso"), *parse_shutter(*values.text("shutter"))}};
   }
 
-  [[nodiscard]] Result<Light> make(Vec3 direction, const LightText& text) const {
+  // path: the directions of the text's.
+  [[nodiscard]] Result<Light> make(std::span<const Vec3> path, const LightText& text) const {
     Light light;
-    light.direction = direction;
+    light.direction = path[path.size() / 2];
     light.distance_mm = text.distance_mm.value_or(distance_mm);
     light.radius_rad = 0.5 * text.size_deg.value_or(values.number("light-size")) * kDegree_rad;
     LightValue own = text.value.value_or(value);
     const auto sum = sum_of(own, light, lens, frame, exposure);
     if (!sum) return tl::unexpected(sum.error());
     if (!own.per_channel) own.rgb = {*sum, *sum, *sum};
-    return with_colour(light, own, text.colour.value_or(colour), space);
+    auto coloured = with_colour(light, own, text.colour.value_or(colour), space);
+    if (!coloured || path.size() == 1) return coloured;
+    return swept_light(std::move(*coloured), path);
   }
 
   [[nodiscard]] Result<Light> make_by_angles(const LightText& text) const {
-    const auto direction = direction_of_angles(text.position);
-    if (!direction) return tl::unexpected(direction.error());
-    return make(*direction, text);
+    std::vector<Vec3> path;
+    for (const Vec2 angles_deg : text.path) {
+      const auto direction = direction_of_angles(angles_deg);
+      if (!direction) return tl::unexpected(direction.error());
+      path.push_back(*direction);
+    }
+    return make(path, text);
   }
 
   [[nodiscard]] Result<Light> make_by_image(const LightText& text) const {
-    const Vec2 sensor_mm = frame.sensor_from_uv(text.position);
-    return make(
-        direction_for_image_point(lens, sensor_mm, lens.design_wavelength_nm, text.distance_mm.value_or(distance_mm)),
-        text);
+    std::vector<Vec3> path;
+    for (const Vec2 uv : text.path)
+      path.push_back(direction_for_image_point(lens, frame.sensor_from_uv(uv), lens.design_wavelength_nm,
+                                               text.distance_mm.value_or(distance_mm)));
+    return make(path, text);
   }
 };
 
@@ -117,7 +128,7 @@ Result<std::vector<Light>> lights(const Values& values, const LensState& lens, c
   const auto maker = LightMaker::create(values, lens, frame, space);
   if (!maker) return tl::unexpected(maker.error());
   LightText text;
-  text.position = kDefaultLight_uv;
+  text.path = {kDefaultLight_uv};
   const auto light = maker->make_by_image(text);
   if (!light) return tl::unexpected(light.error());
   return std::vector<Light>{*light};

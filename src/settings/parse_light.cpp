@@ -14,6 +14,7 @@ namespace contrejour::params {
 namespace {
 
 constexpr double kMaxLightSize_deg = 90.0;
+constexpr std::size_t kMaxPathPositions = 64;
 constexpr double kMaxValue = 1e15;  // together with a colour, it hardly exceeds kMaxLightValue
 constexpr double kMaxValueStops = 40.0;
 constexpr std::pair<std::string_view, LightValue::Unit> kValueUnits[] = {{"stops", LightValue::Unit::Stops},
@@ -62,6 +63,21 @@ Result<void> read_part(const std::vector<std::string_view>& parts, std::size_t k
   return {};
 }
 
+// "A,B", or several of them, separated by slashes.
+Result<std::vector<Vec2>> parse_path(std::string_view text) {
+  const auto positions = split(text, '/');
+  if (positions.size() > kMaxPathPositions)
+    return invalid_argument(
+        fmt::format("a light's path has {} positions; give at most {}", positions.size(), kMaxPathPositions));
+  std::vector<Vec2> path;
+  for (const std::string_view position : positions) {
+    const auto numbers = parse_reals(position, 2);
+    if (!numbers) return tl::unexpected(numbers.error());
+    path.push_back({(*numbers)[0], (*numbers)[1]});
+  }
+  return path;
+}
+
 }  // namespace
 
 Result<LightValue> parse_light_value(std::string_view text) {
@@ -98,10 +114,10 @@ Result<LightText> parse_light(std::string_view text) {
   const auto parts = split(text, ':');
   if (parts.size() > 5)
     return invalid_argument(fmt::format("\"{}\" has too many parts; write A,B:VALUE:COLOUR:SIZE:DISTANCE", text));
-  const auto position = parse_reals(parts[0], 2);
-  if (!position) return tl::unexpected(position.error());
+  auto path = parse_path(parts[0]);
+  if (!path) return tl::unexpected(path.error());
   LightText light;
-  light.position = {(*position)[0], (*position)[1]};
+  light.path = std::move(*path);
   for (const Result<void>& read :
        {read_part(parts, 1, parse_light_value, light.value), read_part(parts, 2, parse_light_colour, light.colour),
         read_part(parts, 3, parse_light_size, light.size_deg),

@@ -137,6 +137,43 @@ class Sequence(ProgramTest):
         self.assertIn("frame 2: out.0002.exr", done.stderr.decode())
         self.assertTrue((self.folder / "out.0003.exr").is_file())
 
+    def write_shot(self):
+        (self.folder / "lights.toml").write_text(
+            '[parameters]\nfnumber = { 1 = 8, 4 = 11 }\n[[light]]\nat = { 1 = [0.4, 0.4], 4 = [0.7, 0.4] }\n'
+            'value = 5000\non = { 1 = true, 4 = false }\n')
+
+    def render(self, *arguments, code=0):
+        return self.run_program("render", "heliar", "--size", "96x64", "--lights", "lights.toml", *arguments, code=code)
+
+    def test_rendered_frames_are_those_of_stills(self):
+        self.write_shot()
+        lines = self.render("-o", "out.####.exr", "--frames", "1-4", "--json").stdout.decode().splitlines()
+        self.assertEqual([(r["frame"], r["output"], r["lights"]) for r in map(json.loads, lines)],
+                         [(n, f"out.{n:04d}.exr", int(n < 4)) for n in range(1, 5)])
+        self.run_program("render", "heliar", "--size", "96x64", "-f", "10", "--light-at", "0.6,0.4:5000", "-o", "still.exr")
+        self.assertEqual((self.folder / "out.0003.exr").read_bytes(), (self.folder / "still.exr").read_bytes())
+        self.assertEqual(set(exr.Picture(self.folder / "out.0004.exr").channels["G"]), {0.0})
+        self.assertIn("4 of 4 frames are done", self.render("-o", "out.####.exr", "--frames", "1-4", "--resume").stderr.decode())
+        self.render("-o", "first.exr")  # a still: the first frame that has a key
+        self.assertEqual((self.folder / "first.exr").read_bytes(), (self.folder / "out.0001.exr").read_bytes())
+
+    def test_a_rendered_sequence_names_its_frames(self):
+        self.write_shot()
+        self.assertIn("--frames", self.render("-o", "out.####.exr", code=1).stderr.decode())
+        self.assertIn("####", self.render("-o", "out.exr", "--frames", "1-4", code=1).stderr.decode())
+        self.assertEqual(self.outputs(), [])
+
+    def test_an_open_shutter_keeps_the_light_and_spreads_it(self):
+        self.write_shot()
+        sums, peaks = [], []
+        for arguments in ([], ["--shutter-angle", "360"]):
+            self.render("-o", "out.#.exr", "--frames", "2", *arguments)
+            green = exr.Picture(self.folder / "out.2.exr").channels["G"]
+            sums.append(sum(green))
+            peaks.append(max(green))
+        self.assertAlmostEqual(sums[1] / sums[0], 1.0, delta=0.15)
+        self.assertLess(peaks[1], 0.7 * peaks[0])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -75,7 +75,7 @@ LensState planar() {
 
 }  // namespace
 
-TEST_CASE("a disc of pixels that leaves the picture fades as its visible area does") {
+TEST_CASE("a disc of pixels that leaves the picture fades as its visible area does [slow]") {
   const LensState lens = planar();
   const Values values = values_of({{"threshold", "2"}, {"wavelengths", "1"}, {"error", "final"}});
   const double whole = applied(picture_of_disc(70.0, 20.0), lens, values).value;

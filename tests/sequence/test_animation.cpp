@@ -102,8 +102,8 @@ size = 0.5
   CHECK(values_at(1005).is_on("starburst"));
 
   const auto lamp = params::parse_light(values_at(1006).list("light-at").at(0)).value();
-  CHECK(lamp.position.x == doctest::Approx(0.5));
-  CHECK(lamp.position.y == doctest::Approx(0.3));
+  CHECK(lamp.path.front().x == doctest::Approx(0.5));
+  CHECK(lamp.path.front().y == doctest::Approx(0.3));
   CHECK(lamp.value->rgb[0] == doctest::Approx(5500));
   CHECK_FALSE(lamp.colour.has_value());
   CHECK(lamp.distance_mm == 2500.0);
@@ -136,4 +136,38 @@ TEST_CASE("errors name the line and the remedy") {
   says(error_of("[parameters]\nsize = \"64x64\"\n"), "not a parameter that can change");
   says(error_of("[parameters]\nfnumber = { 1 = 4, 2 = -1 }\n"), "lights.toml:2");
   says(error_of("lights = 3\n"), "unknown key");
+}
+
+TEST_CASE("while the shutter is open a light takes a path and has the mean of its value") {
+  const Animation animation = must_read(
+      "[[light]]\nat = { 0 = [0.1, 0.5], 8 = [0.9, 0.5] }\nvalue = { 0 = 100, 8 = 900 }\ncolour = \"3200K\"\n");
+  const auto text = [&](double frame, Shutter shutter) {
+    params::Values values;
+    add_lights_at(animation, frame, values, shutter);
+    return values.list("light-at").front();
+  };
+  const auto light = [&](double frame, Shutter shutter) { return params::parse_light(text(frame, shutter)).value(); };
+  CHECK(text(4, {}) == "0.5,0.5:500:3200K");
+  const params::LightText half = light(2, {.angle_deg = 180});
+  REQUIRE(half.path.size() > 2);
+  CHECK(half.path.front().x == doctest::Approx(0.3));
+  CHECK(half.path.back().x == doctest::Approx(0.35));
+  CHECK(half.path.front().y == 0.5);
+  CHECK(half.value->rgb[0] == doctest::Approx(325));
+  const params::LightText centred = light(2, {.angle_deg = 180, .centred = true});
+  CHECK(centred.path.front().x == doctest::Approx(0.275));
+  CHECK(centred.path.back().x == doctest::Approx(0.325));
+  CHECK(centred.value->rgb[0] == doctest::Approx(300));
+  CHECK(light(9, {.angle_deg = 360}).path.size() == 1);  // it stands still
+}
+
+TEST_CASE("paths of lights as text") {
+  const auto path = params::parse_light("0.1,0.2/0.3,0.4/0.5,0.6:5000");
+  REQUIRE(path);
+  CHECK(path->path == std::vector<Vec2>{{0.1, 0.2}, {0.3, 0.4}, {0.5, 0.6}});
+  for (const char* text : {"0.1,0.2/", "/0.1,0.2", "0.1,0.2/0.3", "0.1,0.2//0.3,0.4"})
+    CHECK_FALSE(params::parse_light(text));
+  std::string many = "0,0";
+  for (int k = 0; k < 64; ++k) many += "/0,0";
+  CHECK_FALSE(params::parse_light(many));
 }

@@ -18,7 +18,7 @@ namespace {
 using Words = std::vector<std::string>;
 
 // Values of parameters whose form alone the table checks, and narrower ranges for parameters that cost time, so that a
-// thousand presets are quick.
+// few hundred presets are quick.
 const std::map<std::string_view, Words> kTexts = {
     {"focus", {"inf", "2m", "500", "1e9", "350mm"}},
     {"cover-glass", {"2", "1:1.52:0.5", "3:N-SF11:10"}},
@@ -140,7 +140,7 @@ int rendered(int count, unsigned seed) {
 
 TEST_CASE("random presets render without error or NaN") { CHECK(rendered(40, 1) >= 20); }
 
-TEST_CASE("a thousand of them [slow]") { CHECK(rendered(1000, 2) >= 500); }
+TEST_CASE("hundreds of them [slow]") { CHECK(rendered(400, 2) >= 200); }
 
 TEST_CASE("each end of each range, all else as usual [slow]") {
   for (const Parameter& p : all_parameters()) {

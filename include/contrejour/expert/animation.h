@@ -54,8 +54,17 @@ struct Animation {
 // The parameters at a frame, lights aside.
 [[nodiscard]] CONTREJOUR_API params::Values parameters_at(const Animation& animation, double frame);
 
-// Adds the lights that are on at a frame to the values, as --light and --light-at.
-CONTREJOUR_API void add_lights_at(const Animation& animation, double frame, params::Values& values);
+// The time for which a frame is exposed: angle_deg / 360 of a frame, from the frame's time on, or with that time in its
+// middle.
+struct Shutter {
+  double angle_deg = 0.0;
+  bool centred = false;
+};
+
+// Adds the lights that are on at a frame to the values, as --light and --light-at. While the shutter is open a light
+// takes a path, has the mean of its value, and the colour, size and distance of the middle of that time.
+CONTREJOUR_API void add_lights_at(const Animation& animation, double frame, params::Values& values,
+                                  Shutter shutter = {});
 
 // The first frame that has a key; 0 if there is none.
 [[nodiscard]] CONTREJOUR_API int first_key(const Animation& animation);

@@ -66,8 +66,9 @@ struct LightColour {
 [[nodiscard]] CONTREJOUR_API Result<LightColour> parse_light_colour(std::string_view text);
 
 // "A,B:VALUE:COLOUR:SIZE:DISTANCE"; parts may be left out at the end, and may be empty before another one.
+// "A,B/A,B/..." instead of a position is a path, which the light takes while the shutter is open.
 struct LightText {
-  Vec2 position;  // azimuth and elevation in degrees, or u and v
+  std::vector<Vec2> path{{}};  // azimuth and elevation in degrees, or u and v; at evenly spaced times, at least one
   std::optional<LightValue> value;
   std::optional<LightColour> colour;
   std::optional<double> size_deg;     // diameter of a disc

@@ -75,7 +75,7 @@ const Source kSources[] = {
     {"agf-zemaxglass/misc.agf", "MISC", false},
 };
 
-TEST_CASE("n at the catalogue lines to 1e-6 against every file that has the glass") {
+TEST_CASE("n at the catalogue lines to 1e-6 against every file that has the glass [slow]") {
   const auto folder = shared_data("glass");
   if (!folder) return;
   const Bundle bundle;

@@ -141,7 +141,7 @@ TEST_CASE("a page cut at each byte") {
 }
 
 // Every available page is read, or refused because it has no n, or because its n is impossible.
-TEST_CASE("all pages at hand") {
+TEST_CASE("all pages at hand [slow]") {
   const auto folder = shared_data("glass/refractiveindex.info/database/data");
   if (!folder) return;
   int read_ones = 0, without_n = 0, other_pages = 0;

@@ -322,7 +322,7 @@ TEST_CASE("by default a fisheye's ghosts are continuous spectra, not bars") {
   CHECK(difference->psnr_db.value_or(1000.0) >= 48.0);  // with three wavelengths 34
 }
 
-TEST_CASE("sixteen wavelengths as in the reference") {
+TEST_CASE("sixteen wavelengths as in the reference [slow]") {
   for (const auto& [name, f_number] : {std::pair{"heliar", 16.0}, std::pair{"tessar", 8.0}}) {
     CAPTURE(name);
     const LensState lens = test::lens_at_f(name, f_number);

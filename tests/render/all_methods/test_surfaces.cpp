@@ -79,7 +79,7 @@ TEST_CASE(
   check_all(*lens, {0.66, 0.37}, 120);  // edges are as long again, and `tiled` samples them
 }
 
-TEST_CASE("a cover glass and a sensor that reflects in orders, as in the reference") {
+TEST_CASE("a cover glass and a sensor that reflects in orders, as in the reference [slow]") {
   LensSettings adjustment{.f_number = 8.0};  // dots of some pixels, which `tiled` samples
   adjustment.sensor = {
       .plates = {{2.0, 15.0, Glass{"", ConstantIndex{1.5}}, {}}}, .reflectance = 0.2, .orders = 1, .pitch_mm = 0.008};

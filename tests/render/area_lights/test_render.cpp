@@ -13,6 +13,7 @@
 
 #include "base/scalar.h"
 #include "contrejour/expert/metrics.h"
+#include "contrejour/expert/moving_light.h"
 #include "support/flares.h"
 #include "support/scenes.h"
 
@@ -75,7 +76,7 @@ TEST_CASE("the sun is the sum of points over its disc") {
   }
 }
 
-TEST_CASE("large lights are the sum of points over them, whose caustics and rims they move differently") {
+TEST_CASE("large lights are the sum of points over them, whose caustics and rims they move differently [slow]") {
   struct Case {
     const char* lens;
     LensSettings settings;
@@ -106,7 +107,32 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
   }
 }
 
-TEST_CASE("many lights with a size take at most four times as long as points") {
+TEST_CASE("a light that moves has the flare of lights along its path [slow]") {
+  struct Case {
+    const char* lens;
+    double f_number;
+    Vec2 to_rad;
+  };
+  constexpr int kPoints = 128;
+  for (const auto& [name, f_number, to] : {Case{"heliar", 8.0, {0.05, 0.01}}, {"tessar", 11.0, {-0.02, 0.04}}}) {
+    CAPTURE(name);
+    const LensState lens = test::bundled(name, {.f_number = f_number, .iris = {7}});
+    test::Settings settings = test::green(frame_on_sensor(lens, 240, 160));
+    const Vec3 from = direction_from_angles(0.1, 0.06);
+    const Light light = swept_light({.direction = from}, std::vector{from, offset_direction(from, to)});
+    std::vector<Light> points;
+    for (int k = 0; k < kPoints; ++k)
+      points.push_back({.direction = offset_direction(from, to * ((k + 0.5) / kPoints)),
+                        .value = {1.0 / kPoints, 1.0 / kPoints, 1.0 / kPoints}});
+    settings.set_error(0.001);
+    const Image truth = test::flare_of("adaptive", lens, points, settings).image;
+    const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+    CHECK(psnr_db(truth, ours) > 45.0);
+    CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("many lights with a size take at most four times as long as points [slow]") {
   const LensState lens = test::bundled("planar-50", {});
   test::Settings settings;
   settings.wavelengths = 3;

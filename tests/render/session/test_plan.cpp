@@ -312,7 +312,7 @@ TEST_CASE("windows of a frame show the same ghosts") {
 
 // As hullin2011 intends: measuring all ghosts had taken longer than drawing them. Both times are of this process, in
 // direct succession, so that a busy machine slows both.
-TEST_CASE("selections save time, and figures of all ghosts take that of two frames of them") {
+TEST_CASE("selections save time, and figures of all ghosts take that of two frames of them [slow]") {
   const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 8.0});
   test::Settings settings;
   settings.frame = frame_on_sensor(lens, 640, 427);

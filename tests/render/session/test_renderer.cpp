@@ -81,7 +81,7 @@ Renderer renderer_of(const MethodOptions& method) {
 
 }  // namespace
 
-TEST_CASE("whatever changes from one frame to the next, it has the bits of a frame by itself") {
+TEST_CASE("whatever changes from one frame to the next, it has the bits of a frame by itself [slow]") {
   for (const std::string_view name : render_methods()) {
     CAPTURE(name);
     const MethodOptions method = quick_options(name);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render_sequence.h"
+
+#include <utility>
+
+#include "cli/frame_lens.h"
+#include "cli/frame_report.h"
+#include "cli/long_task.h"
+#include "contrejour/expert/frame_range.h"
+#include "contrejour/expert/frame_record.h"
+#include "contrejour/expert/run_frames.h"
+
+namespace contrejour::cli {
+namespace {
+
+Result<RenderOptions> options_of_frame(const RenderOptions& options, const FrameValues& values, int frame) {
+  RenderOptions own = options;
+  own.values = values.at(frame);
+  if (auto ok = number_names(frame, {&own.output, &own.preview, &own.stats}); !ok) return tl::unexpected(ok.error());
+  own.preset.save.clear();
+  return own;
+}
+
+// The files of a frame, for its record.
+FrameFiles files_of(const RenderOptions& own) {
+  return frame_files(settings_record("render", own.lens, own.values), {}, own.outputs());
+}
+
+Result<PlannedFrame> plan_numbered(const RenderOptions& options, const FrameValues& values, const FrameLens& lens,
+                                   int frame) {
+  auto own = options_of_frame(options, values, frame);
+  if (!own) return tl::unexpected(own.error());
+  auto state = lens.at(own->values);
+  if (!state) return tl::unexpected(state.error());
+  return plan_frame(*own, lens.first_source(), std::move(*state));
+}
+
+}  // namespace
+
+Result<int> render_sequence(const RenderOptions& options, const FrameValues& values, const SequenceOptions& sequence) {
+  if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
+  auto frames = parse_frame_range(sequence.frames);
+  if (!frames) return tl::unexpected(frames.error());
+  auto lens = FrameLens::create(options.lens, values, frames->front(), MeasuredUse::Lights);
+  if (!lens) return tl::unexpected(lens.error());
+  auto renderer = FrameRenderer::create(*lens, values.at(frames->front()));
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
+  if (sequence.resume)
+    leave_out_done(*frames, [&](int frame) {
+      const auto own = options_of_frame(options, values, frame);
+      return own && is_frame_done(files_of(*own));
+    });
+
+  FrameReport report(options.json);
+  const LongTask task("rendering", options.values.integer("threads"));
+  const auto render = [&](int, PlannedFrame& planned, const Context& context) -> Result<RenderedFrame> {
+    if (auto set = renderer->set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
+    return render_frame(std::move(planned), renderer->get(), context);
+  };
+  const auto write = [&](int frame, RenderedFrame& rendered) -> Result<void> {
+    if (auto ok = write_frame(rendered, without_progress(task.context())); !ok) return ok;
+    report.warn(rendered.planned.warnings);
+    report.add(frame, rendered);
+    return write_frame_record(files_of(rendered.planned.options));
+  };
+  const auto failures = run_frames(
+      *frames, [&](int frame) { return plan_numbered(options, values, *lens, frame); }, render, write,
+      {sequence.keep_going}, task.context());
+  if (!failures) return tl::unexpected(failures.error());
+  return report_failures(*failures, frames->size());
+}
+
+}  // namespace contrejour::cli
