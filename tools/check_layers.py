@@ -82,6 +82,7 @@ PUBLIC = {
     "expert/lens_starburst.h": "render/starburst",
     "light.h": "image",
     "expert/light_detection.h": "image",
+    "expert/moving_light.h": "image",
     "expert/light_source.h": "base",
     "expert/capture.h": "measure",
     "expert/capture_list.h": "measure",
