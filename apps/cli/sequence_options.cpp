@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kGroup = "Sequences";
+
 bool is_file(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error);
@@ -39,11 +41,10 @@ Result<std::vector<int>> requested_frames(const SequenceOptions& options, const 
 
 }  // namespace
 
-void add_sequence_options(CLI::App& command, SequenceOptions& options) {
-  constexpr const char* kGroup = "Sequences";
+void add_frame_options(CLI::App& command, SequenceOptions& options) {
   command
       .add_option("--frames", options.frames,
-                  "the frames to render, e.g. 1001-1240, 1001-1100x2,1200 (default: all that are there)")
+                  "the frames of the sequence, e.g. 1001-1240, 1001-1100x2,1200 (default: all that are there)")
       ->option_text("RANGE")
       ->group(kGroup);
   command
@@ -53,6 +54,10 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options) {
       ->check(CLI::IsMember({"error", "skip", "black"}))
       ->option_text("error|skip|black")
       ->group(kGroup);
+}
+
+void add_sequence_options(CLI::App& command, SequenceOptions& options) {
+  add_frame_options(command, options);
   command
       .add_flag("--resume", options.resume, "keep frames that were finished with the same settings from the same files")
       ->group(kGroup);

@@ -25,7 +25,9 @@ struct SequenceOptions {
   bool keep_going = false;
 };
 
-// Adds --frames, --missing, --resume and --keep-going.
+// Adds --frames and --missing.
+void add_frame_options(CLI::App& command, SequenceOptions& options);
+// The same and --resume and --keep-going, for a sequence that is rendered.
 void add_sequence_options(CLI::App& command, SequenceOptions& options);
 
 // True for a name with a place for the number of a frame, unless a file has exactly this name.
