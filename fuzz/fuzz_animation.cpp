@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a file of lights: an error, or values that every frame accepts.
+// Any bytes as a file of lights: an error, or values that every frame accepts and that are
+// written and read the same.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -21,5 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!params::parse_light(light)) std::abort();
   }
   (void)first_key(*read);
+  const auto again = read_animation(write_animation(*read), "again.toml");
+  if (!again || *again != *read) std::abort();
   return 0;
 }

@@ -129,6 +129,7 @@ void set_up(CLI::App& app, Action& action) {
       "Exit codes: 0 success, 1 failure, 2 wrong usage, 130 interrupted.");
   add_render(app, action);
   add_apply(app, action);
+  add_lights(app, action);
   add_lens(app, action);
   add_glass(app, action);
   add_ghosts(app, action);

@@ -29,6 +29,7 @@ void add_preset(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_coating(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
+void add_lights(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);
 void add_lens_info(CLI::App& lens, Action& action);
@@ -47,6 +48,9 @@ void add_coating_fit(CLI::App& coating, Action& action);
 void add_measure_protocol(CLI::App& measure, Action& action);
 void add_measure_merge(CLI::App& measure, Action& action);
 void add_measure_predict(CLI::App& measure, Action& action);
+
+void add_lights_track(CLI::App& lights, Action& action);
+void add_lights_import(CLI::App& lights, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);

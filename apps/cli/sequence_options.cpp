@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGroup = "Sequences";
+constexpr const char* kSequenceGroup = "Sequences";
 
 bool is_file(const fs::path& file) {
   std::error_code error;
@@ -39,30 +39,32 @@ Result<std::vector<int>> requested_frames(const SequenceOptions& options, const 
   return frames;
 }
 
-void add_missing_option(CLI::App& command, SequenceOptions& options) {
+}  // namespace
+
+void add_frame_options(CLI::App& command, SequenceOptions& options, SequenceInput input) {
+  const bool are_files = input == SequenceInput::Files;
+  command
+      .add_option("--frames", options.frames,
+                  fmt::format("the frames of the sequence, e.g. 1001-1240, 1001-1100x2,1200{}",
+                              are_files ? " (default: all that are there)" : ""))
+      ->option_text("RANGE")
+      ->group(kSequenceGroup);
+  if (!are_files) return;
   command
       .add_option("--missing", options.missing,
                   "what to do about frames whose input is missing: stop, leave them out, or take a black picture "
                   "(default: error)")
       ->check(CLI::IsMember({"error", "skip", "black"}))
       ->option_text("error|skip|black")
-      ->group(kGroup);
+      ->group(kSequenceGroup);
 }
 
-}  // namespace
-
 void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input) {
-  command
-      .add_option("--frames", options.frames,
-                  fmt::format("the frames to render, e.g. 1001-1240, 1001-1100x2,1200{}",
-                              input == SequenceInput::Files ? " (default: all that are there)" : ""))
-      ->option_text("RANGE")
-      ->group(kGroup);
-  if (input == SequenceInput::Files) add_missing_option(command, options);
+  add_frame_options(command, options, input);
   command
       .add_flag("--resume", options.resume, "keep frames that were finished with the same settings from the same files")
-      ->group(kGroup);
-  command.add_flag("--keep-going", options.keep_going, "render the other frames when one fails")->group(kGroup);
+      ->group(kSequenceGroup);
+  command.add_flag("--keep-going", options.keep_going, "render the other frames when one fails")->group(kSequenceGroup);
 }
 
 bool is_sequence(const std::string& name) { return is_frame_pattern(name) && !exists(name); }

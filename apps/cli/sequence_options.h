@@ -30,7 +30,9 @@ struct SequenceOptions {
 // Whether frames are read from files, which may be missing.
 enum class SequenceInput { None, Files };
 
-// Adds --frames, --resume, --keep-going and, for files, --missing.
+// Adds --frames and, for files, --missing.
+void add_frame_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
+// The same and --resume and --keep-going, for a sequence that is rendered.
 void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
 
 // True for a name with a place for the number of a frame, unless a file has exactly this name.

@@ -115,6 +115,37 @@ size = 0.5
   CHECK_FALSE(sun.distance_mm.has_value());
 }
 
+TEST_CASE("a file is written and read the same") {
+  Animation shot = must_read(R"([parameters]
+focal = { 1001 = 70, 1002 = 70.1, 1003 = 70.30000000000001, 1004 = 71, 1005 = 1e2, between = "smooth" }
+detect = false
+focus = "2m"
+fnumber = { -3 = 4, 12 = 0.3333333333333333 }
+
+[[light]]
+name = "a \"quoted\" \u0007 name"
+at = { 1 = [0.1, 0.2], 2 = [0.30000000000000004, -7], 4 = [1, 1], 5 = [1, 1], 9 = [1, 0] }
+value = { 7 = "12stops" }
+colour = "3200K"
+on = { 1 = true, 2 = false, 3 = true, 4 = false, 5 = true, between = "step" }
+
+[[light]]
+direction = [12, 20]
+value = [1, 2, 3]
+size = { 1 = 0.53, 4 = 0.6, between = "step" }
+distance = "inf"
+)");
+  CHECK(must_read(write_animation(shot)) == shot);
+  CHECK(must_read(write_animation(Animation())) == Animation());
+  // Every bit of awkward numbers survives, in one line and in a table.
+  for (const double number : {1.0 / 3.0, 1e-300, -5e-324, 123456789012345.6, 0.1 + 0.2}) {
+    shot.lights[0].position.keys = {{0, {number, -number}, {}}};
+    shot.lights[1].position.keys.clear();
+    for (int frame = 1; frame < 9; ++frame) shot.lights[1].position.keys.push_back({frame, {number / frame, 1.0}, {}});
+    CHECK(must_read(write_animation(shot)) == shot);
+  }
+}
+
 TEST_CASE("errors name the line and the remedy") {
   const auto says = [](const std::string& error, const char* what) {
     CAPTURE(error);

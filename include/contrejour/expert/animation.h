@@ -24,12 +24,16 @@ struct Key {
   int frame = 0;
   std::vector<double> numbers;  // as many in each key
   std::string text;  // in place of numbers; between keys, the earlier one's
+
+  friend bool operator==(const Key&, const Key&) = default;
 };
 
 // A value at each frame: constant before the first key and after the last.
 struct KeyedValue {
   std::vector<Key> keys;  // in rising order, at least one
   Interpolation between = Interpolation::Linear;
+
+  friend bool operator==(const KeyedValue&, const KeyedValue&) = default;
 };
 
 // The value as the command line writes it: a text, or numbers separated by commas.
@@ -41,15 +45,23 @@ struct AnimatedLight {
   KeyedValue position;
   std::optional<KeyedValue> value, colour, size_deg, distance;  // without one, the common option's
   std::optional<KeyedValue> on;  // "on" or "off"
+
+  friend bool operator==(const AnimatedLight&, const AnimatedLight&) = default;
 };
 
 struct Animation {
   std::vector<std::pair<std::string, KeyedValue>> parameters;  // by their names (parameter.h)
   std::vector<AnimatedLight> lights;
+
+  friend bool operator==(const Animation&, const Animation&) = default;
 };
 
 [[nodiscard]] CONTREJOUR_API Result<Animation> read_animation(std::string_view toml, const std::string& file);
 [[nodiscard]] CONTREJOUR_API Result<Animation> read_animation(const std::filesystem::path& file);
+
+// The text of a file that read_animation reads as the same animation, number by number. A value with many keys has a
+// table of its own with a key on each line, so that it can be corrected by hand.
+[[nodiscard]] CONTREJOUR_API std::string write_animation(const Animation& animation);
 
 // The parameters at a frame, lights aside.
 [[nodiscard]] CONTREJOUR_API params::Values parameters_at(const Animation& animation, double frame);
