@@ -88,8 +88,8 @@ Result<Imported> import_file(const ImportOptions& options) {
 void report_import(const ImportOptions& options, const Imported& imported) {
   const std::string_view format = kTrackFormatNames[static_cast<std::size_t>(imported.format)];
   if (!imported.never_seen.empty())
-    print_warnings({fmt::format("{} points are never in front of the camera: {}", imported.never_seen.size(),
-                                fmt::join(imported.never_seen, ", "))});
+    print_warnings(
+        {fmt::format("points that are never in front of the camera: {}", fmt::join(imported.never_seen, ", "))});
   if (options.json) {
     print_json({{"output", options.output},
                 {"format", format},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -261,7 +262,7 @@ TEST_CASE("lights enter and leave at the edge without a step") {
 
 TEST_CASE("flux follows a light that fades through the threshold, and nothing else") {
   constexpr int kFrames = 60;
-  const auto level = [](int frame) { return 60.0 * std::pow(std::sin(M_PI * frame / 59.0), 2.0); };
+  const auto level = [](int frame) { return 60.0 * std::pow(std::sin(std::numbers::pi * frame / 59.0), 2.0); };
   double true_step = 0;
   for (int frame = 1; frame < kFrames; ++frame)
     true_step = std::max(true_step, std::abs(level(frame) - level(frame - 1)));

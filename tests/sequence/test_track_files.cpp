@@ -2,9 +2,11 @@
 // Files as other programs write them, with positions that were calculated by hand from each program's conventions.
 #include "contrejour/expert/track_files.h"
 
+#include <array>
 #include <cmath>
-#include <random>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -182,7 +184,7 @@ TEST_CASE("a camera that turns and moves sees points where they are") {
   const auto angles = [&](std::size_t k, double frame) {
     return params::parse_reals(text_at(shot.lights[k].position, frame), 2).value();
   };
-  const double deg = 180.0 / M_PI;
+  const double deg = 180.0 / std::numbers::pi;
   CHECK(angles(0, 1001)[0] == doctest::Approx(0.0).epsilon(1e-9).scale(1.0));
   CHECK(params::parse_real(text_at(*shot.lights[0].distance, 1001)).value() == doctest::Approx(10000.0));
   CHECK_FALSE(is_on(shot, 0, 1002));
@@ -224,7 +226,7 @@ TEST_CASE("orders of rotation: the first axis of the name is rotated about first
   const double rx = 0.2, ry = -0.5, rz = 0.3;
   const Matrix zxy = times(about(1, ry), times(about(0, rx), about(2, rz)));
   const Matrix xyz = times(about(2, rz), times(about(1, ry), about(0, rx)));
-  const double deg = 180.0 / M_PI;
+  const double deg = 180.0 / std::numbers::pi;
   const std::vector<CameraPose> camera{{1, {1, 2, 3}, {rx * deg, ry * deg, rz * deg}, {}}};
   for (const auto& [order, matrix] : {std::pair{"ZXY", zxy}, {"XYZ", xyz}}) {
     const double in_camera[3] = {1.5, -0.7, -8.0};
@@ -285,6 +287,9 @@ TEST_CASE("errors of track files name the line") {
       "tracks.txt:4: \"1.5\" is not the number of a frame");
   says(error_of("name,frame,x,y\na,1,2\n", TrackFormat::Csv), "tracks.txt:2: the line has 3 values, not 4");
   says(error_of("name,x,y\na,1,2\n", TrackFormat::Csv), "no column frame");
+  CHECK(read_tracks("1 2 3\n", "t.txt", TrackFormat::NukeTracker, {1920, 1080, 2000000000}).error().code ==
+        ErrorCode::InvalidArgument);
+  CHECK(read_chan("1 0 0 0 0 0 0\n", "c.chan", -2000000000).error().code == ErrorCode::InvalidArgument);
   CHECK_FALSE(track_format("hello world\n", "t.txt").has_value());
   CHECK_FALSE(track_format("", "t.txt").has_value());
   CHECK(track_format("1 2 3", "t.CHAN").value() == TrackFormat::Chan);

@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 6> kTrackFormatNames = {"nuke-trac
 
 struct TrackFileSettings {
   int width = 0, height = 0;  // of the picture that was tracked, in pixels
-  int frame_offset = 0;       // added to the file's numbers of frames
+  int frame_offset = 0;       // added to the file's numbers of frames; up to 1e8 either way, here and below
 };
 
 struct TrackKey {
@@ -97,7 +97,7 @@ struct WorldLights {
                                                                  std::span<const WorldPoint> points,
                                                                  const WorldSettings& settings);
 
-// The whole text of such a file, in UTF-8. Errors: Io, Parse if it is larger than 256 MB.
+// The whole text of such a file, in UTF-8. Errors: Io, Parse if it is larger than 64 MB.
 [[nodiscard]] CONTREJOUR_API Result<std::string> read_track_text(const std::filesystem::path& file);
 
 }  // namespace contrejour

@@ -12,7 +12,7 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr std::string_view kComments = "#;/";
-constexpr std::string_view kSeparators = " \t,:";
+constexpr std::string_view kFieldSeparators = " \t,:";
 constexpr std::string_view kHeading = "TrackName";
 
 // The origin is the bottom left corner.
@@ -24,7 +24,7 @@ struct Row {
 };
 
 Result<Row> row_of(const TrackLine& line, const std::string& file) {
-  const auto fields = fields_between(line.text, kSeparators);
+  const auto fields = fields_between(line.text, kFieldSeparators);
   const auto frame = fields.empty() ? std::nullopt : track_frame(fields[0]);
   if (!frame) return wrong_line(file, line.number, "the line does not begin with the number of a frame");
   Row row{*frame, {}};

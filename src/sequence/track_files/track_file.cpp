@@ -13,7 +13,7 @@
 namespace contrejour {
 namespace {
 
-constexpr std::size_t kMaxTrackFileBytes = std::size_t{256} << 20U;
+constexpr std::size_t kMaxTrackFileBytes = std::size_t{64} << 20U;  // as a file of lights
 
 bool are_numbers(const std::vector<std::string_view>& fields) {
   return std::ranges::all_of(fields, [](std::string_view field) { return track_number(field).has_value(); });
@@ -50,6 +50,7 @@ Result<TrackFormat> track_format(std::string_view text, const std::string& file)
 Result<std::vector<PointTrack>> read_tracks(std::string_view text, const std::string& file, TrackFormat format,
                                             const TrackFileSettings& settings) {
   if (settings.width < 1 || settings.height < 1) return invalid_argument("tracks need the size of their picture");
+  if (auto ok = check_frame_offset(settings.frame_offset); !ok) return tl::unexpected(ok.error());
   switch (format) {
     case TrackFormat::NukeTracker: return read_nuke_tracks(text, file, settings);
     case TrackFormat::Equalizer: return read_equalizer_tracks(text, file, settings);

@@ -81,6 +81,11 @@ std::optional<int> track_frame(std::string_view field) {
   return static_cast<int>(*number);
 }
 
+Result<void> check_frame_offset(int offset) {
+  if (std::abs(static_cast<double>(offset)) <= kLargestFrame) return {};
+  return invalid_argument(fmt::format("the offset of frames is not within {:g} of 0", kLargestFrame));
+}
+
 tl::unexpected<Error> wrong_line(const std::string& file, int line, std::string message) {
   return failure(ErrorCode::Parse, std::move(message), {file, line, 0});
 }

@@ -29,6 +29,9 @@ struct TrackLine {
 [[nodiscard]] std::optional<double> track_number(std::string_view field);  // finite, up to 1e9
 [[nodiscard]] std::optional<int> track_frame(std::string_view field);      // whole, up to 1e8; "12.0" too
 
+// Errors: InvalidArgument if frames with it could be beyond what an int has.
+[[nodiscard]] Result<void> check_frame_offset(int offset);
+
 [[nodiscard]] tl::unexpected<Error> wrong_line(const std::string& file, int line, std::string message);
 
 // Collects points by the names of their tracks.

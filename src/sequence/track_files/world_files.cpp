@@ -57,6 +57,7 @@ Result<void> check_follows(const CameraPose& before, const CameraPose& pose, con
 }  // namespace
 
 Result<std::vector<CameraPose>> read_chan(std::string_view text, const std::string& file, int frame_offset) {
+  if (auto ok = check_frame_offset(frame_offset); !ok) return tl::unexpected(ok.error());
   std::vector<CameraPose> camera;
   for (const TrackLine& line : track_lines(text, "#")) {
     if (fields_between(line.text, " \t,").empty()) continue;
@@ -72,6 +73,7 @@ Result<std::vector<CameraPose>> read_chan(std::string_view text, const std::stri
 }
 
 Result<std::vector<WorldPoint>> read_world_points(std::string_view text, const std::string& file, int frame_offset) {
+  if (auto ok = check_frame_offset(frame_offset); !ok) return tl::unexpected(ok.error());
   const auto table = read_csv_table(text, file, {"x", "y", "z"});
   if (!table) return tl::unexpected(table.error());
   std::vector<WorldPoint> points;

@@ -46,7 +46,7 @@ struct FrameSpan {
   std::ptrdiff_t from = 0, to = 0;  // [from, to)
 };
 
-FrameSpan span_of(const LightTrack& track, std::span<const int> frames, int fade) {
+FrameSpan frames_near(const LightTrack& track, std::span<const int> frames, int fade) {
   const auto index = [&](int frame) { return std::lower_bound(frames.begin(), frames.end(), frame) - frames.begin(); };
   const std::ptrdiff_t first = index(track.points.front().frame), last = index(track.points.back().frame);
   const auto count = static_cast<std::ptrdiff_t>(frames.size());
@@ -85,7 +85,7 @@ std::vector<Rgb> fluxes_of(const FadedTrack& faded) {
 }  // namespace
 
 FadedTrack faded_track(const LightTrack& track, std::span<const int> frames, int fade_frames) {
-  const FrameSpan span = span_of(track, frames, fade_frames);
+  const FrameSpan span = frames_near(track, frames, fade_frames);
   FadedTrack faded;
   for (std::ptrdiff_t k = span.from; k < span.to; ++k) {
     const int frame = frames[static_cast<std::size_t>(k)];
