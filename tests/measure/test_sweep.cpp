@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "contrejour/expert/first_order.h"
 #include "contrejour/expert/sweep.h"
+#include "contrejour/expert/sweep_geometry.h"
 #include "contrejour/frame.h"
 
 using namespace contrejour;
@@ -56,6 +57,24 @@ TEST_CASE("sweep: the light's image moves as the head turns [slow]") {
     const Vec2 at = bright_centroid(station->direct);
     CHECK(at.x == doctest::Approx(125.0 + focal_length_px * std::tan(rad_from_deg(station->angle_deg))).epsilon(0.01));
     CHECK(at.y == doctest::Approx(77.0).epsilon(0.01));
+  }
+}
+
+TEST_CASE("sweep: the short exposure shows where the light is, to a tenth of a pixel [slow]") {
+  const LensState lens = heliar();
+  SweepSettings settings = small_sweep(lens);
+  settings.angles_deg = {-0.9, -0.4, 0.0, 0.25, 0.6};  // so near the axis that the lens has no distortion
+  settings.jitter_deg = settings.roll_deg = 0.0;
+  const double focal_length_px =
+      first_order(lens, 550.0).focal_length_mm / frame_on_sensor(lens, 240, 160).pixel_pitch_mm;
+  for (std::size_t k = 0; k < settings.angles_deg.size(); ++k) {
+    const auto station = simulate_station(lens, settings, k);
+    REQUIRE_MESSAGE(station.has_value(), station.error().to_string());
+    const auto at = direct_image_position(station->direct);
+    REQUIRE(at.has_value());
+    const double offset_px = focal_length_px * std::tan(rad_from_deg(settings.angles_deg[k]));
+    CHECK(std::abs(at->x - 0.5 * (125.0 + offset_px)) < 0.1);
+    CHECK(std::abs(at->y - 0.5 * 77.0) < 0.1);
   }
 }
 

@@ -36,8 +36,9 @@ struct SweepGeometry {
   [[nodiscard]] CONTREJOUR_API Vec2 position_of(double angle_rad) const;
 };
 
-// The position of the light's image in a short exposure: the centroid of what is above half of its maximum. None where
-// nothing is, or where the exposure is saturated there. In pixels of half the raw size, as merged pictures have.
+// The position of the light's image in a short exposure: the centroid of it and the pixels at its edge, which is right
+// to a tenth of a pixel where the image is at least three raw pixels wide. None where nothing is, or where the exposure
+// is saturated there. In pixels of half the raw size, as merged pictures have.
 [[nodiscard]] CONTREJOUR_API std::optional<Vec2> direct_image_position(const RawFrame& direct);
 
 // Fits the geometry robustly: images farther off than the others (a reflection taken for the light) count little.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -16,7 +17,9 @@ constexpr int kParameters = 6;  // centre x, centre y, focal length, distortion,
 constexpr std::size_t kMinImages = 5;
 constexpr double kMinSpread_px = 4.0;   // of the images, below which nothing can be told
 constexpr double kHuber_px = 0.5;       // a residual beyond which an image counts less
-constexpr double kBrightPart = 0.5;     // of the maximum: what belongs to the light's image
+constexpr double kBrightPart = 0.5;     // of the maximum: what certainly belongs to the light's image
+// The pixels at its edge, which are lit in part, say between which pixels it lies.
+constexpr double kFaintPart = 0.05, kEdgeRadii = 1.5, kEdgeMargin_px = 1.5;
 constexpr double kSaturated = 0.98;     // of the white level
 
 SweepGeometry geometry_of(const Eigen::VectorXd& p) { return {{p[0], p[1]}, p[2], p[3], p[4], p[5], 0.0, {}}; }
@@ -95,6 +98,30 @@ Vec2 centre_errors(const Eigen::MatrixXd& hessian, double roll_rad, double varia
   return {std::sqrt(std::max(along.dot(centre * along), 0.0)), std::sqrt(std::max(across.dot(centre * across), 0.0))};
 }
 
+// The centroid of what exceeds a level within a radius, in raw pixels.
+struct Centroid {
+  Vec2 at;
+  double pixels = 0;
+};
+
+Centroid centroid_above(const RawFrame& frame, double level, Vec2 middle, double radius) {
+  Centroid centroid;
+  double weights = 0.0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x);
+      const double above = frame.dn[k] - level;
+      const Vec2 at{x + 0.5, y + 0.5};
+      if (above <= 0.0 || length(at - middle) > radius) continue;
+      centroid.at = centroid.at + at * above;
+      weights += above;
+      ++centroid.pixels;
+    }
+  }
+  centroid.at = centroid.at * (1.0 / weights);
+  return centroid;
+}
+
 }  // namespace
 
 Vec2 SweepGeometry::position_of(double angle_rad) const {
@@ -108,19 +135,11 @@ std::optional<Vec2> direct_image_position(const RawFrame& direct) {
   const double highest = *std::ranges::max_element(direct.dn);
   const double range = direct.white_dn - direct.black_dn;
   if (highest - direct.black_dn < 0.02 * range || highest > direct.black_dn + kSaturated * range) return std::nullopt;
-  const double limit = direct.black_dn + kBrightPart * (highest - direct.black_dn);
-  Vec2 sum{};
-  double weights = 0.0;
-  for (int y = 0; y < direct.height; ++y) {
-    for (int x = 0; x < direct.width; ++x) {
-      const auto k = static_cast<std::size_t>(y) * static_cast<std::size_t>(direct.width) + static_cast<std::size_t>(x);
-      const double above = direct.dn[k] - limit;
-      if (above <= 0.0) continue;
-      sum = sum + Vec2{0.5 * (x + 0.5), 0.5 * (y + 0.5)} * above;
-      weights += above;
-    }
-  }
-  return sum * (1.0 / weights);
+  const double above_black = highest - direct.black_dn;
+  const Centroid bright = centroid_above(direct, direct.black_dn + kBrightPart * above_black, {}, 1e9);
+  const double radius = kEdgeRadii * std::sqrt(bright.pixels / std::numbers::pi) + kEdgeMargin_px;
+  const Centroid whole = centroid_above(direct, direct.black_dn + kFaintPart * above_black, bright.at, radius);
+  return whole.at * 0.5;
 }
 
 Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images) {

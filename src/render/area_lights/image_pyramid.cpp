@@ -94,7 +94,8 @@ PyramidFrame ImagePyramid::frame_for(int level, KernelExtent extent) const {
                y.origin,
                x.full,
                y.full,
-               frame_.pixel_pitch_mm * scale};
+               frame_.pixel_pitch_mm * scale,
+               frame_.shift_mm};
   out.moved = {x.moved, y.moved};
   return out;
 }

@@ -117,7 +117,12 @@ Window window_about(Vec2 centre, double radius, KernelExtent margin, const Frame
           within(std::ceil(centre.y + radius) + down, frame.height)};
 }
 
-// A point's spread at one level, times the level's weight, blurred by the light's shape.
+// The middle of the pixel that a point lies in.
+Vec2 middle_of_pixel(Vec2 at) { return {std::floor(at.x) + 0.5, std::floor(at.y) + 0.5}; }
+
+// A point's spread at one level, times the level's weight, blurred by the light's shape. A spread much narrower than a
+// pixel lies in one pixel, wherever in it the point is, so the spread is drawn at that pixel's middle, and the kernel
+// moves it to where the point is.
 Result<void> add_level(ImagePyramid& pyramid, const Area& area, const LevelRange& levels, double pitch_mm,
                        const AddPointSpread& add_point, const Context& context) {
   const double scale = std::exp2(levels.level);
@@ -129,7 +134,8 @@ Result<void> add_level(ImagePyramid& pyramid, const Area& area, const LevelRange
   const Window window = window_about(centre, levels.radius_px() / scale, extent, at.frame);
   if (window.x0 >= window.x1 || window.y0 >= window.y1) return {};
   Image part(window.x1 - window.x0, window.y1 - window.y0);
-  const Vec2 in_part = centre - Vec2{static_cast<double>(window.x0), static_cast<double>(window.y0)};
+  const Vec2 exact = centre - Vec2{static_cast<double>(window.x0), static_cast<double>(window.y0)};
+  const Vec2 in_part = middle_of_pixel(exact);
   const double farthest_px = std::min(farthest_corner(in_part, part.width, part.height), levels.radius_px() / scale);
   if (auto ok = add_point(part, area.light, {pitch_mm * scale, 2.0 + farthest_px}, in_part, area.flux); !ok) return ok;
   parallel_for(static_cast<std::size_t>(part.height), context, [&](std::size_t row) {
@@ -138,8 +144,8 @@ Result<void> add_level(ImagePyramid& pyramid, const Area& area, const LevelRange
       for (int c = 0; c < 3; ++c)
         part.at(x, y, c) *= static_cast<float>(levels.at(scale * length(Vec2{x + 0.5, y + 0.5} - in_part)));
   });
-  pyramid.add({part, window.x0, window.y0}, at, make_kernel(area.piece, map, at.moved, smooth_variance(levels.level)),
-              0.0, context);
+  pyramid.add({part, window.x0, window.y0}, at,
+              make_kernel(area.piece, map, at.moved + in_part - exact, smooth_variance(levels.level)), 0.0, context);
   return {};
 }
 

@@ -45,6 +45,20 @@ Light sun(double azimuth_rad, double elevation_rad) {
   return light;
 }
 
+// Of the green channel, in pixels.
+Vec2 centroid_of(const Image& image) {
+  Vec2 sum;
+  double weights = 0.0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const double w = image.at(x, y, 1);
+      sum = sum + Vec2{x + 0.5, y + 0.5} * w;
+      weights += w;
+    }
+  }
+  return sum * (1.0 / weights);
+}
+
 }  // namespace
 
 TEST_CASE("the sun is the sum of points over its disc") {
@@ -299,6 +313,32 @@ TEST_CASE("a disc's starburst is the sum of its points', and holds the light's v
   // The tail outside the disc, as a ratio.
   for (const auto& [x, y] : {std::pair{10, 10}, {200, 20}, {60, 140}, {180, 80}})
     CHECK(flux_in(ours, x, y, 8) == doctest::Approx(flux_in(truth, x, y, 8)).epsilon(0.01));
+}
+
+TEST_CASE("a disc's direct image lies where the light is, within a small part of a pixel") {
+  const LensState lens = test::bundled("planar-50", {});
+  const test::Settings settings = starburst_alone(lens, 120, 80);
+  double last = 0.0;
+  for (int k = 0; k < 5; ++k) {  // steps of a fifth of a pixel
+    const double tangent = (10.1 + 0.2 * k) * settings.frame.pixel_pitch_mm / lens.focal_length_mm;
+    Light light = sun(std::atan(tangent), 0.0);
+    light.radius_rad = 1.5 * settings.frame.pixel_pitch_mm / lens.focal_length_mm;
+    const double x = centroid_of(test::flare_of("bundle", lens, {&light, 1}, settings).image).x;
+    if (k > 0) CHECK(x - last == doctest::Approx(0.2).epsilon(0.05));
+    last = x;
+  }
+}
+
+TEST_CASE("a frame's shift moves the ghosts of lights with a size, too") {
+  const LensState lens = test::plate();
+  Frame frame{240, 240, 0, 0, 240, 240, 0.05};
+  Light light;
+  light.radius_rad = 0.02;
+  const Vec2 before = centroid_of(test::flare_of("adaptive", lens, {&light, 1}, test::green(frame)).image);
+  frame.shift_mm = {-7.25 * frame.pixel_pitch_mm, 4.5 * frame.pixel_pitch_mm};
+  const Vec2 after = centroid_of(test::flare_of("adaptive", lens, {&light, 1}, test::green(frame)).image);
+  CHECK(after.x - before.x == doctest::Approx(7.25).epsilon(0.01));
+  CHECK(after.y - before.y == doctest::Approx(4.5).epsilon(0.01));
 }
 
 TEST_CASE("starburst and glare of wide lights add light everywhere, whatever their shape, and keep their flux") {
