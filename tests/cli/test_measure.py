@@ -397,64 +397,6 @@ class Fit(ProgramTest):
         self.assertEqual(self.files(), ["none"])
 
 
-class Fit(ProgramTest):
-    """From nothing: photographs simulated, merged, fitted, drawn, predicted; then other fits of the same stations."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.shared = tempfile.TemporaryDirectory()
-        done = subprocess.run([PROGRAM, "measure", "demo", "-o", "demo", "--size", "160", "--stations", "11",
-                               "--max-ghosts", "1", "--no-comparison", "--json"], cwd=cls.shared.name,
-                              capture_output=True)
-        cls.failed = done.stderr.decode() if done.returncode else ""
-        cls.demo = pathlib.Path(cls.shared.name) / "demo"
-        cls.report = json.loads(done.stdout) if not cls.failed else {}
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
-
-    def setUp(self):
-        super().setUp()
-        self.assertEqual(self.failed, "")
-
-    def fit(self, *more, code=0):
-        return self.run_program("measure", "fit", "merged", "-o", "a.flare.toml", "--max-ghosts", "1", *more, code=code)
-
-    def test_the_demo(self):
-        self.assertEqual(self.report["ghosts_found"], 1)
-        self.assertLess(max(abs(v) for v in self.report["centre_off_px"]), 0.2)
-        self.assertAlmostEqual(self.report["ghosts"][1]["speed"], -1.09, delta=0.03)
-        self.assertLess(self.report["flux_error"], 0.3)
-        self.assertEqual(sum(s["held_out"] for s in self.report["stations"]), 2)
-        page = (self.demo / "report.html").read_text()
-        self.assertEqual(page.count("data:image/png;base64,"), 3 * 7)
-        self.assertGreaterEqual(page.count("<svg"), 7)
-        for drawing in ("safe-lens.svg", "safe-flare.svg"):
-            xml.parse(self.demo / drawing)
-        self.assertIn("a demo is here already", self.error_of("measure", "demo", "-o", str(self.demo), code=1))
-
-    def test_a_fit_with_a_broken_station(self):
-        shutil.copytree(self.demo / "merged", self.folder / "merged")
-        (self.folder / "merged" / "station-0003.exr").write_bytes(b"broken")
-        done = self.fit("--csv", "a.csv", "--f-number", "4.5", "--iso", "100", "--time", "1", "--json")
-        self.assertIn("station-0003.exr", done.stderr.decode())
-        self.assertEqual(len(table(self.folder / "a.csv")), 10)
-        text = (self.folder / "a.flare.toml").read_text()
-        self.assertIn("exposure = { f_number = 4.5", text)
-        self.assertIn("half_field", text)
-        self.run_program("render", "a.flare.toml", "-o", "a.exr", "--light", "3,2", *SMALL)
-        self.assertGreater(exr.Picture(self.folder / "a.exr").total(), 0)
-
-    def test_errors_name_the_remedy(self):
-        self.assertIn("measure merge", self.error_of("measure", "fit", "none", "-o", "a.flare.toml", code=1))
-        (self.folder / "merged").mkdir()
-        self.assertIn("at least 5", self.error_of("measure", "fit", "merged", "-o", "a.flare.toml", code=1))
-        self.assertIn(".flare.toml", self.error_of("measure", "fit", "merged", "-o", "a.toml", code=2))
-        self.assertIn("together", self.error_of("measure", "fit", "merged", "-o", "a.flare.toml", "--iso", "100", code=1))
-        self.assertFalse((self.folder / "a.flare.toml").exists())
-
-
 class Predict(ProgramTest):
     def setUp(self):
         super().setUp()
