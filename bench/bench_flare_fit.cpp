@@ -135,6 +135,7 @@ struct Capture {
   SweepSettings settings;
   std::vector<CapturedImage> pictures;
   std::vector<DirectImage> lights;
+  std::vector<std::optional<DirectFlux>> direct;
 };
 
 Result<Capture> captured(const LensState& lens, int stations, int raw_width) {
@@ -152,8 +153,11 @@ Result<Capture> captured(const LensState& lens, int stations, int raw_width) {
     Result<CapturedImage> picture = merge_exposures(station->exposures, station->background);
     if (!picture) return tl::unexpected(picture.error());
     capture.pictures.push_back(std::move(*picture));
-    if (const auto at = direct_image_position(station->direct))
-      capture.lights.push_back({s.angles_deg[k] * 0.017453292519943295, *at});
+    capture.direct.emplace_back();
+    if (const auto flux = direct_flux(station->direct)) {
+      capture.direct.back() = *flux;
+      capture.lights.push_back({s.angles_deg[k] * 0.017453292519943295, flux->position_px});
+    }
   }
   return capture;
 }
@@ -239,7 +243,7 @@ int run(const std::string& name, int stations, int raw_width) {
   FlareSweep sweep;
   for (const double angle : capture->settings.angles_deg) sweep.angles_rad.push_back(angle * 0.017453292519943295);
   sweep.light = {light, light, light};
-  sweep.pattern = capture->settings.sensor.pattern;
+  sweep.direct = capture->direct;
   sweep.picture = [&](std::size_t k) -> Result<CapturedImage> { return capture->pictures[k]; };
   const double start = seconds_now();
   const Result<FittedFlare> fit = fit_flare(sweep, *geometry);

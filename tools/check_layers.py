@@ -102,6 +102,7 @@ PUBLIC = {
     "expert/panorama.h": "measure",
     "expert/sweep.h": "measure",
     "expert/fit_flare.h": "measure",
+    "expert/fit_comparison.h": "measure",
     "expert/sweep_geometry.h": "measure",
     "method_options.h": "render/planning",
     "expert/methods.h": "render/planning",

@@ -5,16 +5,20 @@
 namespace contrejour::cli {
 
 void add_measure(CLI::App& app, Action& action) {
-  CLI::App* measure = app.add_subcommand("measure", "flare from photographs: plan them, merge them, predict flare");
+  CLI::App* measure = app.add_subcommand("measure", "flare from photographs: plan, merge, fit, predict");
   measure->require_subcommand(1);
   measure->footer(
       "Examples:\n"
       "  contrejour measure protocol -o protocol.html --list sweep.csv\n"
       "  contrejour measure merge sweep.csv -o merged\n"
-      "  contrejour measure predict heliar -f 8 -o safe.svg");
+      "  contrejour measure fit merged -o mine.flare.toml --report mine.html\n"
+      "  contrejour measure predict heliar -f 8 -o safe.svg\n"
+      "  contrejour measure demo -o demo");
   add_measure_protocol(*measure, action);
   add_measure_merge(*measure, action);
+  add_measure_fit(*measure, action);
   add_measure_predict(*measure, action);
+  add_measure_demo(*measure, action);
 }
 
 }  // namespace contrejour::cli

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/station_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +19,8 @@ namespace {
 
 constexpr const char* kAngleAttribute = "headAngleDegrees";
 constexpr const char* kDirectAttribute = "directImage";  // x, y, red, green, blue
+constexpr const char* kMosaicAttribute = "bayerPattern";
+constexpr std::array<std::string_view, 4> kPatternNames{"rggb", "bggr", "grbg", "gbrg"};
 
 void add_layer(Picture& picture, const std::string& layer, const Image& image) {
   for (std::size_t c = 0; c < 3; ++c) {
@@ -26,6 +32,23 @@ void add_layer(Picture& picture, const std::string& layer, const Image& image) {
       std::memcpy(channel.samples.data() + k * sizeof(float), &image.pixels[3 * k + c], sizeof(float));
     picture.channels.push_back(std::move(channel));
   }
+}
+
+Result<Image> layer_of(const Picture& picture, const std::string& layer, const std::filesystem::path& file) {
+  Image image(picture.rgb.width, picture.rgb.height);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::string name = layer + "." + "RGB"[c];
+    const auto channel = std::ranges::find(picture.channels, name, &PictureChannel::name);
+    if (channel == picture.channels.end() || channel->type != SampleType::Float ||
+        channel->samples.size() != image.pixels.size() / 3 * sizeof(float)) {
+      return failure(ErrorCode::Parse,
+                     fmt::format("there is no {}; merge the station again with `contrejour measure merge`", name),
+                     {file.string(), 0, 0});
+    }
+    for (std::size_t k = 0; k < image.pixels.size() / 3; ++k)
+      std::memcpy(&image.pixels[3 * k + c], channel->samples.data() + k * sizeof(float), sizeof(float));
+  }
+  return image;
 }
 
 }  // namespace
@@ -40,7 +63,22 @@ Result<void> write_station(const std::filesystem::path& file, const MergedStatio
                        fmt::format("{},{},{},{},{}", direct->position_px.x, direct->position_px.y, direct->rate[0],
                                    direct->rate[1], direct->rate[2]));
   }
+  if (station.image.pattern)
+    set_text_attribute(picture, kMosaicAttribute,
+                       std::string(kPatternNames[static_cast<std::size_t>(*station.image.pattern)]));
   return write_picture(file, picture);
+}
+
+Result<CapturedImage> read_station(const std::filesystem::path& file) {
+  auto picture = read_picture(file);
+  if (!picture) return tl::unexpected(picture.error());
+  auto variance = layer_of(*picture, "variance", file), valid = layer_of(*picture, "valid", file);
+  if (!variance) return tl::unexpected(variance.error());
+  if (!valid) return tl::unexpected(valid.error());
+  CapturedImage image{std::move(picture->rgb), std::move(*variance), std::move(*valid), {}};
+  const auto name = std::ranges::find(kPatternNames, text_attribute(*picture, kMosaicAttribute).value_or(""));
+  if (name != kPatternNames.end()) image.pattern = static_cast<BayerPattern>(name - kPatternNames.begin());
+  return image;
 }
 
 Result<StationFacts> read_station_facts(const std::filesystem::path& file) {

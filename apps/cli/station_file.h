@@ -20,4 +20,7 @@ struct StationFacts {
 };
 [[nodiscard]] Result<StationFacts> read_station_facts(const std::filesystem::path& file);
 
+// The pixels. Errors: as above; layers of variance or validity that are absent.
+[[nodiscard]] Result<CapturedImage> read_station(const std::filesystem::path& file);
+
 }  // namespace contrejour::cli

@@ -4,8 +4,13 @@
 import csv
 import json
 import math
+import pathlib
+import re
+import shutil
+import statistics
 import struct
 import subprocess
+import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 import zlib
@@ -317,6 +322,79 @@ class Merge(ProgramTest):
         self.assertIn("s.csv:1:", self.error_of("measure", "merge", "s.csv", "-o", "out", code=1))
         self.assertIn("cannot be read", self.error_of("measure", "merge", "none.csv", "-o", "out", code=1))
         self.assertEqual(self.files(), ["s.csv"])
+
+
+class Fit(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        """One small demo serves all tests: it simulates the photographs, which takes longest."""
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.holder.cleanup)
+        cls.demo = pathlib.Path(cls.holder.name) / "demo"
+        done = subprocess.run([PROGRAM, "measure", "demo", "-o", cls.demo, "--size", "160", "--stations", "11",
+                               "--max-ghosts", "1", "--no-comparison", "--json"], capture_output=True, timeout=300)
+        assert done.returncode == 0, done.stderr.decode()
+        cls.found = json.loads(done.stdout)
+
+    def test_demo_finds_the_optical_centre_and_the_brightest_ghost(self):
+        self.assertLess(math.hypot(*self.found["centre_off_px"]), 0.5)
+        self.assertEqual(self.found["ghosts_found"], 1)
+        ghost = self.found["ghosts"][1]  # after the veil
+        self.assertAlmostEqual(ghost["speed"], -1.09, delta=0.03)  # of the Tessar's, by first-order optics
+        self.assertLess(self.found["held_out_nrmse"], 0.3)
+        self.assertEqual([s["held_out"] for s in self.found["stations"]].count(True), 2)
+
+    def test_demo_writes_all_pages_and_pictures(self):
+        names = {p.name for p in self.demo.iterdir()}
+        self.assertEqual(names, {"merged", "pictures", "report.html", "demo.flare.toml", "stations.csv",
+                                 "safe-lens.svg", "safe-flare.svg"})
+        self.assertEqual(len(list((self.demo / "merged").iterdir())), 11)
+        pictures = {p.name for p in (self.demo / "pictures").iterdir()}
+        self.assertLessEqual({"drawn-lens.png", "drawn-flare.png", "station-0002-captured.png",
+                              "station-0002-fitted.png", "station-0002-residual.png"}, pictures)
+        report = (self.demo / "report.html").read_text()
+        charts = re.findall("<svg.*?</svg>", report, re.S)
+        self.assertEqual(len(charts), 7)
+        for chart in [*charts, (self.demo / "safe-flare.svg").read_text()]:
+            xml.fromstring(chart)
+        self.assertEqual(report.count("data:image/png;base64,"), 3 * 7)
+
+    def test_demo_does_not_write_over_another(self):
+        self.assertIn("a demo is here already", self.error_of("measure", "demo", "-o", self.demo, code=1))
+
+    def test_fit_is_the_same_for_any_number_of_threads_and_is_drawn(self):
+        fit = ["measure", "fit", self.demo / "merged", "--max-ghosts", "1", "--name", "mine"]
+        self.run_program(*fit, "-o", "a.flare.toml", "--threads", "1", "--csv", "a.csv", "--f-number", "4.5", "--iso",
+                         "100", "--time", "1")
+        self.run_program(*fit, "-o", "b.flare.toml", "--threads", "3", "--csv", "b.csv", "--f-number", "4.5", "--iso",
+                         "100", "--time", "1")
+        flare = (self.folder / "a.flare.toml").read_text()
+        self.assertEqual(flare, (self.folder / "b.flare.toml").read_text())
+        self.assertIn("f_number = 4.5", flare)
+        self.assertEqual(table(self.folder / "a.csv"), table(self.folder / "b.csv"))
+        self.run_program("render", "a.flare.toml", "-o", "a.exr", "--light-at", "0.75,0.5:1000", *SMALL)
+        picture = exr.Picture(self.folder / "a.exr")
+        values = {(x, y): picture.value(x, y, "G") for x in range(120) for y in range(80)}
+        inside = [at for at, value in values.items() if value > 0.5 * max(values.values())]
+        self.assertAlmostEqual(statistics.mean(x + 0.5 for x, _ in inside), 60 - 1.09 * 30, delta=1)
+        self.assertAlmostEqual(statistics.mean(y + 0.5 for _, y in inside), 40, delta=1)
+
+    def test_fit_leaves_out_a_broken_station(self):
+        merged = self.folder / "merged"
+        shutil.copytree(self.demo / "merged", merged)
+        (merged / "station-0003.exr").write_bytes(b"v/1\1 broken")
+        done = self.run_program("measure", "fit", merged, "-o", "a.flare.toml", "--max-ghosts", "1", "--json")
+        self.assertIn("station-0003.exr", done.stderr.decode())
+        self.assertEqual(len(json.loads(done.stdout)["stations"]), 10)
+
+    def test_fit_refuses(self):
+        fit = ["measure", "fit", self.demo / "merged"]
+        self.assertIn("together", self.error_of(*fit, "-o", "a.flare.toml", "--iso", "100", code=1))
+        self.assertIn(".flare.toml", self.error_of(*fit, "-o", "a.toml", code=2))
+        (self.folder / "none").mkdir()
+        self.assertIn("0 merged stations", self.error_of("measure", "fit", "none", "-o", "a.flare.toml", code=1))
+        self.assertIn("measure merge", self.error_of("measure", "fit", "absent", "-o", "a.flare.toml", code=1))
+        self.assertEqual(self.files(), ["none"])
 
 
 class Predict(ProgramTest):

@@ -66,6 +66,9 @@ struct CapturedImage {
   Image variance;  // of each, > 0
   Image valid;     // 1, or 0 where every exposure is saturated: rate is then a lower bound
   std::vector<std::string> warnings;
+  // The mosaic of the exposures: red and blue pixels lie beside the middle of a block. None: the channels lie on one
+  // another.
+  std::optional<BayerPattern> pattern = std::nullopt;
 };
 
 // Merges exposures of different times of one scene by inverse variances. background: exposures with the light blocked

@@ -14,6 +14,7 @@
 
 #include "contrejour/context.h"
 #include "contrejour/expert/capture.h"
+#include "contrejour/expert/capture_list.h"
 #include "contrejour/expert/measured_flare.h"
 #include "contrejour/expert/sweep_geometry.h"
 #include "contrejour/export.h"
@@ -26,10 +27,11 @@ namespace contrejour {
 struct FlareSweep {
   std::vector<double> angles_rad;  // of the head, as for the geometry
   std::function<Result<CapturedImage>(std::size_t station)> picture;
-  // The mosaic of the raw exposures. Their red and blue pixels lie beside the middle of a block, and are shifted there.
-  // None: the pictures' channels lie on one another.
-  std::optional<BayerPattern> pattern = std::nullopt;
   Rgb light{1, 1, 1};  // the sum of the light's direct image over the pixels of such a picture; its levels' unit
+  // What the short exposure of each station says, or nothing where it says nothing: the place of the light's image,
+  // which the geometry then does not need to predict from an angle that the head met to a fiftieth of a degree only;
+  // its flux, which stands for `light`, so that the lamp's drift divides out. Empty: no station has any.
+  std::vector<std::optional<DirectFlux>> direct = {};
 };
 
 struct FlareFitOptions {
@@ -40,6 +42,11 @@ struct FlareFitOptions {
   int max_width = 320;  // pictures are reduced by whole numbers to at most this width
   double model_error = 0.1;  // of a pixel's value: what the model is not expected to describe
   double huber = 3.0;  // standard deviations from which residuals count linearly
+  // Each station of so many is not fitted: it tells how many coefficients the curves of the ghosts need, and what the
+  // flare is worth at angles that it was not fitted to. 0: all are fitted, and the curves have the fewest coefficients.
+  int held_out_every = 5;
+  int max_degree = 2;  // coefficients of a curve beyond the fewest
+  int pictures = 0;  // stations, evenly spaced, whose pictures FittedStation keeps
 };
 
 // A disc that moves with the light: the start of a fit.
@@ -58,6 +65,17 @@ struct FitProgress {
   double cost = 0;
 };
 
+// A station after the fit. Fluxes are relative to the light's, and of the pixels that no halo or saturation covers.
+struct FittedStation {
+  std::size_t station = 0;  // of the sweep
+  double s = 0;  // tangent of the light's angle; below 0 to the left
+  bool held_out = false;
+  double captured = 0, fitted = 0;  // flux, the mean of the channels
+  double nrmse = 0;  // RMS of the residuals over that of the picture without halo, where it stands out of the noise
+  // Without halo, relative to the light; 0 where halo or saturation covers the flare. Without pixels if not asked for.
+  Image captured_picture, fitted_picture;
+};
+
 struct FittedFlare {
   MeasuredFlare flare;
   // Optical centre of the pictures: the ghosts determine it better than the light's images do.
@@ -66,7 +84,9 @@ struct FittedFlare {
   std::vector<FoundGhost> found;
   std::vector<FitProgress> progress;  // of the last fit
   double image_evaluations = 0;  // in all
-  double nrmse = 0;  // RMS of the residuals over that of the pictures without halo, where they stand out of the noise
+  double nrmse = 0, held_out_nrmse = 0;  // as of a station, over those that were fitted and those that were held out
+  int degree = 0;  // coefficients beyond the fewest, as the stations held out chose
+  std::vector<FittedStation> stations;  // in the order of the sweep
   std::vector<std::string> warnings;
 };
 

@@ -166,6 +166,7 @@ Result<CapturedImage> merge_exposures(std::span<const RawFrame> exposures, std::
   CapturedImage image;
   leave_out_others(halves, settings, image.warnings);
   const int width = exposures.front().width / 2, height = exposures.front().height / 2;
+  image.pattern = exposures.front().pattern;
   image.rate = image.variance = image.valid = Image(width, height);
   const auto row_floats = static_cast<std::size_t>(3 * width);
   done = parallel_for(static_cast<std::size_t>(height), context, [&](std::size_t y) {

@@ -12,6 +12,7 @@
 #include "measure/fit/flare_problem.h"
 #include "measure/fit/ghost_start.h"
 #include "measure/fit/halo.h"
+#include "measure/fit/station_figures.h"
 #include "measure/fit/stations.h"
 
 namespace contrejour {
@@ -27,8 +28,8 @@ constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a war
 constexpr std::size_t kStationsOfOneFit = 10;  // to which a ghost is fitted alone
 constexpr double kSeenMargin = 1.1;
 constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
-constexpr double kStandsOut = 9.0;  // the square of a pixel's value over its standard deviation
 constexpr double kConverged = 2e-4;
+constexpr std::size_t kFewestToHoldOut = 10;  // stations in all, from which on some are held out
 // The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
 // would stand for the background, or for a bright rim.
 constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003;
@@ -37,7 +38,9 @@ constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003;
 struct FlareFit {
   FlareFitOptions options;
   Context context;
-  SweepStations sweep;
+  SweepStations sweep, held_out;
+  std::vector<std::size_t> fitted_of, held_of;  // stations of the sweep
+  std::vector<FitStation> held_fine, held_coarse;
   // Without the halo: of the full reduced size and half of it, to be searched, and samples of both to be fitted.
   std::vector<FitStation> fine, coarse, coarse_samples, fine_samples;
   FittedFlare result;
@@ -71,11 +74,8 @@ std::vector<FitStation> residual_stations(const std::vector<FitStation>& station
                                           const Context& context) {
   std::vector<FitStation> residuals = stations;
   parallel_for(stations.size(), context, [&](std::size_t k) {
-    const FitStation& station = stations[k];
-    const FlareLight light{station.frame.to_light * station.s, {1.0, 1.0, 1.0}};
-    const Result<Image> model = render_measured(flare, std::span(&light, 1), station.frame.pixels, {.threads = 1});
-    if (!model) return;
-    for (std::size_t i = 0; i < model->pixels.size(); ++i) residuals[k].rate.pixels[i] -= model->pixels[i];
+    const Image model = model_of_station(flare, stations[k]);
+    for (std::size_t i = 0; i < model.pixels.size(); ++i) residuals[k].rate.pixels[i] -= model.pixels[i];
   });
   return residuals;
 }
@@ -86,6 +86,8 @@ void separate_halo(FlareFit& fit, double quantile) {
       fit.flare().ghosts.empty() ? fit.sweep.stations : residual_stations(fit.sweep.stations, fit.flare(), fit.context);
   const HaloProfile halo = halo_of(residuals, fit.sweep.lights_px, {fit.sweep.masked_px, quantile});
   fit.fine = stations_without(fit.sweep, halo, fit.options.model_error);
+  fit.held_fine = stations_without(fit.held_out, halo, fit.options.model_error);
+  fit.held_coarse = half_size_stations(fit.held_fine);
   fit.coarse = half_size_stations(fit.fine);
   fit.coarse_samples = sampled_stations(fit.coarse, 2);
   fit.fine_samples = sampled_stations(fit.fine, 4);
@@ -105,7 +107,8 @@ Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
 
 // Moves the optical centre in all stations.
 void move_all(FlareFit& fit, double centre_shift) {
-  for (auto* stations : {&fit.sweep.stations, &fit.fine, &fit.coarse, &fit.coarse_samples, &fit.fine_samples}) {
+  for (auto* stations : {&fit.sweep.stations, &fit.held_out.stations, &fit.fine, &fit.coarse, &fit.coarse_samples,
+                         &fit.fine_samples, &fit.held_fine, &fit.held_coarse}) {
     for (FitStation& station : *stations) move_centre(station, centre_shift);
   }
   fit.centre_shift += centre_shift;
@@ -223,20 +226,89 @@ void find_all(FlareFit& fit) {
   }
 }
 
-// RMS of what is left over, over that of the pictures, where they are clear.
-double nrmse_of(const FlareFit& fit) {
-  const std::vector<FitStation> residuals = residual_stations(fit.coarse, fit.result.flare, fit.context);
-  double left = 0.0, all = 0.0;
-  for (std::size_t k = 0; k < residuals.size(); ++k) {
-    for (std::size_t i = 0; i < residuals[k].rate.pixels.size(); ++i) {
-      const auto weight = static_cast<double>(residuals[k].weight.pixels[i]);
-      const auto value = static_cast<double>(fit.coarse[k].rate.pixels[i]);
-      if (weight * value * value < kStandsOut) continue;
-      left += std::pow(static_cast<double>(residuals[k].rate.pixels[i]), 2);
-      all += value * value;
-    }
+// The stations' figures, in the order of the sweep; sums: of all of them together.
+std::vector<FittedStation> judged(const FlareFit& fit, bool held_out, ClearSums& sums) {
+  const std::vector<FitStation>& fine = held_out ? fit.held_fine : fit.fine;
+  const std::vector<FitStation>& coarse = held_out ? fit.held_coarse : fit.coarse;
+  std::vector<FittedStation> judged(fine.size());
+  std::vector<ClearSums> parts(fine.size());
+  const auto total = static_cast<double>(fit.fitted_of.size() + fit.held_of.size());
+  parallel_for(fine.size(), fit.context, [&](std::size_t k) {
+    FittedStation& one = judged[k];
+    const FitStation& station = fine[k];
+    one.station = (held_out ? fit.held_of : fit.fitted_of)[k];
+    one.held_out = held_out;
+    one.s = station.frame.to_light.x < 0.0 ? -station.s : station.s;
+    Image model = model_of_station(fit.result.flare, station);
+    one.captured = flux_of(station.rate, station);
+    one.fitted = flux_of(model, station);
+    parts[k] = clear_sums(coarse[k], model_of_station(fit.result.flare, coarse[k]));
+    one.nrmse = parts[k].nrmse();
+    const int pictures = fit.options.pictures;
+    if (std::floor(static_cast<double>(one.station + 1) * pictures / total) <=
+        std::floor(static_cast<double>(one.station) * pictures / total))
+      return;
+    one.captured_picture = fitted_part(station.rate, station);
+    one.fitted_picture = fitted_part(std::move(model), station);
+  });
+  for (const ClearSums& part : parts) sums.left += part.left, sums.all += part.all;
+  return judged;
+}
+
+void judge(FlareFit& fit) {
+  ClearSums fitted, held;
+  fit.result.stations = judged(fit, false, fitted);
+  const std::vector<FittedStation> others = judged(fit, true, held);
+  fit.result.stations.insert(fit.result.stations.end(), others.begin(), others.end());
+  std::ranges::sort(fit.result.stations, {}, &FittedStation::station);
+  fit.result.nrmse = fitted.nrmse();
+  fit.result.held_out_nrmse = held.nrmse();
+}
+
+MeasuredFlare flare_of_degree(MeasuredFlare flare, int degree) {
+  for (std::size_t k = 1; k < flare.ghosts.size(); ++k) flare.ghosts[k] = with_degree(flare.ghosts[k], degree);
+  return flare;
+}
+
+// The cost at the stations held out.
+double held_out_cost(const FlareFit& fit, const MeasuredFlare& flare, double centre_shift) {
+  std::vector<FitStation> stations = fit.held_coarse;
+  for (FitStation& station : stations) move_centre(station, centre_shift);
+  FlareProblem problem(stations, flare);
+  problem.huber = fit.options.huber;
+  problem.context = fit.context;
+  return problem.cost(problem.layout.pack(flare));
+}
+
+// As many coefficients as make the stations held out likeliest. More are tried from what fewer gave.
+void choose_degree(FlareFit& fit) {
+  if (fit.held_coarse.empty() || fit.result.found.empty()) return;
+  double least = held_out_cost(fit, fit.flare(), 0.0);
+  for (int degree = 1; degree <= fit.options.max_degree; ++degree) {
+    const LevelFit more = optimised(fit, fit.coarse_samples, flare_of_degree(fit.flare(), degree), fit.options.huber,
+                                    kTogetherIterations, true);
+    const double cost = held_out_cost(fit, more.flare, more.centre_shift);
+    if (fit.context.cancelled() || !(cost < least)) return;
+    least = cost;
+    fit.result.degree = degree;
+    fit.flare() = more.flare;
+    move_all(fit, more.centre_shift);
   }
-  return all > 0.0 ? std::sqrt(left / all) : 0.0;
+}
+
+// Takes the stations that are held out from those that are fitted.
+void hold_out(FlareFit& fit) {
+  SweepStations all = std::move(fit.sweep);
+  fit.sweep = {{}, {}, all.masked_px, all.saturated};
+  fit.held_out = {{}, {}, all.masked_px, all.saturated};
+  const auto every = static_cast<std::size_t>(std::max(fit.options.held_out_every, 0));
+  for (std::size_t k = 0; k < all.stations.size(); ++k) {
+    const bool held = every > 0 && k % every == every / 2 && all.stations.size() >= kFewestToHoldOut;
+    SweepStations& to = held ? fit.held_out : fit.sweep;
+    to.stations.push_back(std::move(all.stations[k]));
+    to.lights_px.push_back(all.lights_px[k]);
+    (held ? fit.held_of : fit.fitted_of).push_back(k);
+  }
 }
 
 // Light that is the same everywhere is no flare where there is no ghost.
@@ -255,6 +327,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   Result<SweepStations> stations = reduced_stations(sweep, geometry, options, fit.context);
   if (!stations) return tl::unexpected(stations.error());
   fit.sweep = std::move(*stations);
+  hold_out(fit);
   separate_halo(fit, kHaloQuantile);
   for (const FitStation& station : fit.fine) fit.flare().s_max = std::max(fit.flare().s_max, station.s);
   fit.flare().ghosts.push_back(start_of_veil(fit.coarse, fit.flare().s_max));
@@ -269,10 +342,13 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   if (context.progress) context.progress(0.5);
   separate_halo(fit, kMedian);
   fit_together(fit, fit.coarse_samples, options.huber, kTogetherIterations);
+  choose_degree(fit);
   fit_together(fit, fit.fine_samples, options.huber, kLastIterations);
   if (context.cancelled()) return interrupted();
-  fit.result.nrmse = nrmse_of(fit);
+  const TangentFrame& frame = fit.fine.front().frame.pixels;
+  fit.flare().half_field = {0.5 * frame.width / frame.focal_length_px, 0.5 * frame.height / frame.focal_length_px};
   drop_veil_without_ghosts(fit);
+  judge(fit);
   if (context.progress) context.progress(1.0);
   fit.result.centre_px = geometry.centre_px + Vec2{fit.centre_shift * std::abs(geometry.focal_length_px), 0.0};
   return fit.result;

@@ -2,6 +2,7 @@
 #include "measure/fit/stations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -98,10 +99,40 @@ FitStation reduced(const CapturedImage& image, int block, const Rgb& light) {
   return station;
 }
 
-void place(FitStation& station, double angle_rad, const SweepGeometry& geometry, int block) {
+constexpr double kMostJitter_px = 4.0;  // from where the angle puts the light: farther off is a reflection
+
+// The light's image as the short exposure shows it; else where the head's angle puts it.
+Vec2 light_position(const FlareSweep& sweep, std::size_t k, const SweepGeometry& geometry) {
+  const Vec2 expected = geometry.position_of(sweep.angles_rad[k]);
+  if (k >= sweep.direct.size() || !sweep.direct[k]) return expected;
+  const Vec2 seen = sweep.direct[k]->position_px;
+  return length(seen - expected) <= std::max(kMostJitter_px, 4.0 * geometry.rms_px) ? seen : expected;
+}
+
+double middle_of(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+// The light of each station. Its drift is that of the green flux, its colour the usual one of all stations: red and
+// blue pixels are few in a small image, and miss a part of it that depends on where it lies among them.
+std::vector<Rgb> lights_of(const FlareSweep& sweep) {
+  std::array<std::vector<double>, 3> over_green;
+  for (const auto& direct : sweep.direct) {
+    for (std::size_t c = 0; direct && c < 3; ++c) over_green[c].push_back(direct->rate[c] / direct->rate[1]);
+  }
+  std::vector<Rgb> lights(sweep.angles_rad.size(), sweep.light);
+  for (std::size_t k = 0; k < sweep.direct.size(); ++k) {
+    for (std::size_t c = 0; sweep.direct[k] && c < 3; ++c)
+      lights[k][c] = sweep.direct[k]->rate[1] * middle_of(over_green[c]);
+  }
+  return lights;
+}
+
+void place(FitStation& station, Vec2 light_px, const SweepGeometry& geometry, int block) {
   const double scale = 1.0 / block, focal_length_px = std::abs(geometry.focal_length_px);
   station.frame.pixels = {station.rate.width, station.rate.height, scale * focal_length_px, geometry.centre_px * scale};
-  const Vec2 offset = geometry.position_of(angle_rad) - geometry.centre_px;
+  const Vec2 offset = light_px - geometry.centre_px;
   const double distance = length(offset);
   station.s = distance / focal_length_px;
   if (distance > 0.0) station.frame.to_light = {offset.x / distance, -offset.y / distance};
@@ -135,8 +166,13 @@ Result<SweepStations> reduced_stations(const FlareSweep& sweep, const SweepGeome
   if (count < kFewestStations || !sweep.picture) {
     return invalid_argument(fmt::format("{} stations; a fit needs at least {}", count, kFewestStations));
   }
+  const bool dark = std::ranges::any_of(
+      sweep.direct, [](const auto& d) { return d && !std::ranges::all_of(d->rate, [](double v) { return v > 0.0; }); });
+  if (dark || (!sweep.direct.empty() && sweep.direct.size() != count))
+    return invalid_argument("the light's images must be as many as stations, each with a flux above 0");
   if (!(std::abs(geometry.focal_length_px) > 0.0)) return invalid_argument("the geometry has no focal length");
   SweepStations all;
+  const std::vector<Rgb> lights = lights_of(sweep);
   std::optional<Error> error;
   int width = 0, height = 0;
   double saturated = 0.0;
@@ -145,11 +181,12 @@ Result<SweepStations> reduced_stations(const FlareSweep& sweep, const SweepGeome
       [&](std::size_t k) -> Result<std::pair<FitStation, Vec2>> {
         Result<CapturedImage> image = sweep.picture(k);
         if (!image) return tl::unexpected(image.error());
-        if (sweep.pattern) align_channels(*image, *sweep.pattern);
+        if (image->pattern) align_channels(*image, *image->pattern);
         const int block = std::max(1, (image->rate.width + options.max_width - 1) / options.max_width);
-        FitStation station = reduced(*image, block, sweep.light);
-        place(station, sweep.angles_rad[k], geometry, block);
-        return std::pair{std::move(station), geometry.position_of(sweep.angles_rad[k]) * (1.0 / block)};
+        FitStation station = reduced(*image, block, lights[k]);
+        const Vec2 light_px = light_position(sweep, k, geometry);
+        place(station, light_px, geometry, block);
+        return std::pair{std::move(station), light_px * (1.0 / block)};
       },
       [&](std::size_t k, Result<std::pair<FitStation, Vec2>>& one) {
         if (error) return;
@@ -206,6 +243,7 @@ FitStation half_size_station(const FitStation& station) {
 
 std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo, double model_error) {
   std::vector<FitStation> stations = sweep.stations;
+  if (stations.empty()) return stations;
   std::vector<double> bright;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     subtract_halo(stations[k], halo, sweep.lights_px[k], sweep.masked_px);

@@ -108,6 +108,17 @@ double predicted(std::span<const double> s, std::span<const double> values, doub
   return powers.colPivHouseholderQr().solve(right)[0];
 }
 
+WalchCost scaled_costs(const Image& picture, const Image& model, double smoothing_px, const WalchCost& scale) {
+  Image difference = picture;
+  for (std::size_t k = 0; k < difference.pixels.size(); ++k) difference.pixels[k] -= model.pixels[k];
+  if (!(scale.mse > 0.0 && scale.edges > 0.0)) return {};
+  return {mean_square(difference) / scale.mse, mean_square(edges_of(difference, smoothing_px)) / scale.edges};
+}
+
+double total(const WalchCost& cost, const WalchSettings& settings) {
+  return settings.mse_weight * cost.mse + settings.edge_weight * cost.edges;
+}
+
 // The descent at one station.
 struct WalchDescent {
   const FitStation& station;
@@ -116,12 +127,21 @@ struct WalchDescent {
   WalchFit& fit;
   std::vector<WalchParameters> at;
   double cost = 0;
+  WalchCost scale = walch_scale(picture, settings.smoothing_px);
 
-  double cost_of(const std::vector<WalchParameters>& parameters) {
+  [[nodiscard]] static Image model_of(const std::vector<WalchParameters>& parameters, const FitStation& station) {
     std::vector<GhostAtAngle> ghosts;
     for (const WalchParameters& p : parameters) ghosts.push_back(walch_ghost(p));
+    return grey_model(ghosts, station);
+  }
+
+  double cost_of(const std::vector<WalchParameters>& parameters) {
     ++fit.image_evaluations;
-    return walch_cost(picture, grey_model(ghosts, station), settings);
+    return total(scaled_costs(picture, model_of(parameters, station), settings.smoothing_px, scale), settings);
+  }
+
+  [[nodiscard]] WalchCost costs() const {
+    return scaled_costs(picture, model_of(at, station), settings.smoothing_px, scale);
   }
 
   // A central difference says which way to go; the parameter is used as soon as it is updated.
@@ -161,6 +181,18 @@ std::vector<WalchParameters> start_of(const std::vector<std::vector<WalchParamet
 
 }  // namespace
 
+std::vector<GhostAtAngle> grey_ghosts(const MeasuredFlare& flare, double s) {
+  std::vector<GhostAtAngle> ghosts;
+  for (const MeasuredGhost& ghost : flare.ghosts) {
+    auto at = ghost_at(ghost, s, flare.s_max);
+    if (!at) continue;
+    at->border[0] += at->border[1] + at->border[2];
+    at->inside[0] += at->inside[1] + at->inside[2];
+    ghosts.push_back(*at);
+  }
+  return ghosts;
+}
+
 Image grey_picture(const FitStation& station) {
   Image grey(station.rate.width, station.rate.height, 1);
   for (std::size_t k = 0; k < grey.pixels.size(); ++k) {
@@ -189,13 +221,16 @@ Image grey_model(std::span<const GhostAtAngle> ghosts, const FitStation& station
   return grey;
 }
 
+WalchCost walch_scale(const Image& picture, double smoothing_px) {
+  return {mean_square(picture), mean_square(edges_of(picture, smoothing_px))};
+}
+
+WalchCost walch_costs(const Image& picture, const Image& model, double smoothing_px) {
+  return scaled_costs(picture, model, smoothing_px, walch_scale(picture, smoothing_px));
+}
+
 double walch_cost(const Image& picture, const Image& model, const WalchSettings& settings) {
-  Image difference = picture;
-  for (std::size_t k = 0; k < difference.pixels.size(); ++k) difference.pixels[k] -= model.pixels[k];
-  const double level = mean_square(picture), edges = mean_square(edges_of(picture, settings.smoothing_px));
-  if (!(level > 0.0 && edges > 0.0)) return 0.0;
-  return settings.mse_weight * mean_square(difference) / level +
-         settings.edge_weight * mean_square(edges_of(difference, settings.smoothing_px)) / edges;
+  return total(walch_costs(picture, model, settings.smoothing_px), settings);
 }
 
 WalchFit walch_fit(std::span<const FitStation> stations, const MeasuredFlare& start, const WalchSettings& settings,
@@ -214,13 +249,7 @@ WalchFit walch_fit(std::span<const FitStation> stations, const MeasuredFlare& st
   for (const std::size_t k : order) {
     std::vector<WalchParameters> from;
     if (fitted.empty()) {
-      for (const MeasuredGhost& ghost : start.ghosts) {
-        auto at = ghost_at(ghost, stations[k].s, start.s_max);
-        if (!at) continue;
-        at->border[0] += at->border[1] + at->border[2];
-        at->inside[0] += at->inside[1] + at->inside[2];
-        from.push_back(walch_parameters(*at));
-      }
+      for (const GhostAtAngle& at : grey_ghosts(start, stations[k].s)) from.push_back(walch_parameters(at));
     } else {
       from = start_of(fitted, fitted_s, stations[k].s);
     }
@@ -242,6 +271,7 @@ WalchFit walch_fit(std::span<const FitStation> stations, const MeasuredFlare& st
       }
       fit.progress.push_back(
           {fit.image_evaluations, (cost_sum + descent.cost) / static_cast<double>(fitted.size() + 1)});
+      fit.steps.push_back({k, fit.image_evaluations, descent.costs()});
     }
     cost_sum += descent.cost;
     fitted.push_back(descent.at);

@@ -21,12 +21,28 @@ struct WalchSettings {
   double rate_decay = 0.8;  // of all steps, after so many iterations
 };
 
+// The parts of the cost, each relative to the picture's own.
+struct WalchCost {
+  double mse = 0, edges = 0;
+};
+
+// A station after an iteration.
+struct WalchStep {
+  std::size_t station = 0;
+  double image_evaluations = 0;  // in all
+  WalchCost cost;
+};
+
 // The ghosts of each station, with their own parameters there.
 struct WalchFit {
   std::vector<std::vector<GhostAtAngle>> ghosts;
   std::vector<FitProgress> progress;  // after each iteration: the mean cost of the stations fitted so far
+  std::vector<WalchStep> steps;  // after each iteration
   double image_evaluations = 0;
 };
+
+// A flare's ghosts for a light at s, whose first channel is the sum of three.
+[[nodiscard]] std::vector<GhostAtAngle> grey_ghosts(const MeasuredFlare& flare, double s);
 
 // One channel: the sum of three.
 [[nodiscard]] Image grey_picture(const FitStation& station);
@@ -34,6 +50,10 @@ struct WalchFit {
 
 // walch2018 eq. 1 and 3.3.1: the mean square difference and that of the smoothed edges, both over the picture's mean
 // square (of the edges' likewise).
+[[nodiscard]] WalchCost walch_costs(const Image& picture, const Image& model, double smoothing_px);
+
+// The picture's own mean squares, which the parts are relative to.
+[[nodiscard]] WalchCost walch_scale(const Image& picture, double smoothing_px);
 [[nodiscard]] double walch_cost(const Image& picture, const Image& model, const WalchSettings& settings);
 
 // From the flare's ghosts at a key station, the one in the middle of the range, to its neighbours and on; once four

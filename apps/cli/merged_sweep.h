@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folder that `measure merge` wrote, as the sweep that a fit reads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "contrejour/expert/fit_flare.h"
+
+namespace contrejour::cli {
+
+struct MergedSweep {
+  std::vector<std::filesystem::path> files;  // of the stations, by their numbers
+  std::vector<double> angles_rad;
+  std::vector<std::optional<DirectFlux>> direct;
+  std::vector<std::string> warnings;  // files that are left out because they cannot be read
+
+  // Reads a station's pixels when the fit asks for them.
+  [[nodiscard]] FlareSweep sweep() const;
+};
+
+// Errors: no such folder; fewer than five stations in it that can be read.
+[[nodiscard]] Result<MergedSweep> open_merged(const std::string& folder);
+
+// The geometry from the places of the light's image. Errors: fewer than five of the stations state one.
+[[nodiscard]] Result<SweepGeometry> geometry_of(const MergedSweep& merged, const std::string& folder);
+
+}  // namespace contrejour::cli
