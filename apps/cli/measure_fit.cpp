@@ -41,7 +41,7 @@ std::string name_of_output(const std::string& output) {
 }
 
 // The exposure of equation 2 needs all three numbers.
-Result<std::optional<CaptureExposure>> exposure_of(const CaptureExposure& given) {
+Result<std::optional<CaptureExposure>> given_exposure(const CaptureExposure& given) {
   const bool any = given.f_number > 0.0 || given.iso > 0.0 || given.time_s > 0.0;
   if (!any) return std::optional<CaptureExposure>();
   if (given.f_number > 0.0 && given.iso > 0.0 && given.time_s > 0.0) return std::optional(given);
@@ -138,7 +138,7 @@ void add_fit_numbers(CLI::App& command, FitRequest& request) {
 }  // namespace
 
 Result<FitResult> fit_merged(FitRequest request) {
-  const auto exposure = exposure_of(request.exposure);
+  const auto exposure = given_exposure(request.exposure);
   if (!exposure) return tl::unexpected(exposure.error());
   const auto merged = open_merged(request.folder);
   if (!merged) return tl::unexpected(merged.error());
