@@ -189,7 +189,7 @@ const FittedGhost* match_of(const TrueGhost& truth, const std::vector<FittedGhos
     const double off =
         std::hypot((ghost.moments.speed - truth.moments.speed) / std::max(std::abs(truth.moments.speed), 0.5),
                    std::log(ghost.moments.size / truth.moments.size));
-    if (off >= best_off) continue;
+    if (!(off < best_off)) continue;  // also where it is not a number: a ghost smaller than a pixel has no size
     best_off = off;
     best = &ghost;
   }

@@ -14,7 +14,7 @@ namespace contrejour::cli {
 namespace {
 
 constexpr double kCurvesWidth = 760.0, kCurvesHeight = 400.0;
-constexpr double kCurvesLeft = 84.0, kCurvesRight = 150.0, kCurvesTop = 44.0, kCurvesBottom = 56.0;
+constexpr double kCurvesLeft = 84.0, kCurvesRight = 172.0, kCurvesTop = 44.0, kCurvesBottom = 56.0;
 constexpr std::array kCurvesColours{"#2f6fb0", "#c2402f", "#2c9a5b", "#d08a1e", "#7a4fa3",
                                     "#111111", "#17a2b8", "#b0578d", "#7f8c3a", "#8a97a3"};
 constexpr const char* kCurvesText = R"(font-size="12" fill="#333")";

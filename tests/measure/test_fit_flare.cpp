@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "base/units.h"
+#include "contrejour/expert/fit_comparison.h"
 #include "contrejour/expert/fit_flare.h"
 #include "contrejour/expert/sweep.h"
 
@@ -95,6 +97,31 @@ TEST_CASE("fit flare: the Tessar's bright ghost is found and fitted, and the opt
   REQUIRE(fit->stations.size() == 13);
   CHECK(std::ranges::count(fit->stations, true, &FittedStation::held_out) == 3);
   CHECK(fit->held_out_nrmse < 1.3 * fit->nrmse);
+}
+
+TEST_CASE("fit comparison: from one start, both costs fall, and every picture is counted [slow]") {
+  const Capture& capture = tessar();
+  FoundGhost disc;
+  disc.speed = -1.15;
+  disc.radius = 0.04;
+  disc.last = 0.18;
+  ComparisonSettings settings;
+  settings.max_stations = 5;
+  settings.max_width = 80;
+  settings.walch_iterations = 12;
+  settings.our_iterations = 8;
+  const auto both =
+      compare_with_walch(capture.sweep(), capture.geometry, std::span(&disc, 1), capture.geometry.centre_px, settings);
+  REQUIRE_MESSAGE(both.has_value(), both.error().to_string());
+  CHECK(both->ours.front().cost == both->walch.front().cost);
+  CHECK(both->ours.front().cost == doctest::Approx(both->ours.front().mse + both->ours.front().edges));
+  CHECK(both->ours.back().cost < 0.8 * both->ours.front().cost);
+  CHECK(both->walch.back().cost < both->walch.front().cost);
+  const double stations = 5.0;
+  CHECK(both->walch.back().image_evaluations == stations * (1.0 + 12.0 * 24.0));
+  CHECK(both->walch.size() == 1 + 5 * 12);
+  CHECK(std::fmod(both->ours.back().image_evaluations, stations) == 0.0);
+  CHECK(!compare_with_walch(capture.sweep(), capture.geometry, {}, {}, settings));
 }
 
 TEST_CASE("fit flare: the same bits for any number of threads [slow]") {

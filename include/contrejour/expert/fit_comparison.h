@@ -31,8 +31,8 @@ struct FitComparison {
 
 struct ComparisonSettings {
   std::size_t max_ghosts = 3;  // the first that were found
-  int max_stations = 7;      // evenly spaced ones of the sweep: the descent takes hundreds of evaluations for each
-  int max_width = 120;       // pictures are reduced to at most this width
+  int max_stations = 7;  // neighbours, to one side of the axis: the descent takes hundreds of evaluations for each
+  int max_width = 120;  // pictures are reduced to at most this width
   int walch_iterations = 30;
   int our_iterations = 40;
 };

@@ -2,6 +2,7 @@
 #include "contrejour/expert/fit_comparison.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "measure/fit/ghost_start.h"
@@ -17,20 +18,33 @@ constexpr double kQuadratic = 1e9;       // Huber's loss far beyond any residual
 constexpr int kComparedDegrees = 3;      // the fewest coefficients, then one and two more
 constexpr double kComparedDecrease = 1e-4;
 
-// The sweep with a few of its stations.
-FlareSweep few_of(const FlareSweep& sweep, int most) {
-  const std::size_t count = sweep.angles_rad.size();
-  const std::size_t step = std::max<std::size_t>((count + static_cast<std::size_t>(most) - 1) / most, 1);
-  FlareSweep few;
-  few.light = sweep.light;
-  std::vector<std::size_t> from;
-  for (std::size_t k = 0; k < count; k += step) {
-    from.push_back(k);
-    few.angles_rad.push_back(sweep.angles_rad[k]);
-    if (!sweep.direct.empty()) few.direct.push_back(sweep.direct[k]);
+// The stations to one side of the axis, neighbours of one another, about the middle of the range: the descent goes from
+// neighbour to neighbour, and needs small steps between them.
+std::vector<std::size_t> neighbours(const FlareSweep& sweep, const SweepGeometry& geometry, int most) {
+  std::vector<std::pair<double, std::size_t>> aside;
+  double largest = 0.0;
+  for (const double angle : sweep.angles_rad) largest = std::max(largest, angle - geometry.zero_rad);
+  for (std::size_t k = 0; k < sweep.angles_rad.size(); ++k) {
+    const double angle = sweep.angles_rad[k] - geometry.zero_rad;
+    if (angle > 0.0) aside.emplace_back(std::abs(angle - 0.5 * largest), k);
   }
-  few.picture = [&sweep, from](std::size_t k) { return sweep.picture(from[k]); };
-  return few;
+  std::ranges::sort(aside);
+  aside.resize(std::min(aside.size(), static_cast<std::size_t>(most)));
+  std::vector<std::size_t> chosen;
+  for (const auto& [off, k] : aside) chosen.push_back(k);
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+FlareSweep part_of(const FlareSweep& sweep, const std::vector<std::size_t>& chosen) {
+  FlareSweep part;
+  part.light = sweep.light;
+  for (const std::size_t k : chosen) {
+    part.angles_rad.push_back(sweep.angles_rad[k]);
+    if (!sweep.direct.empty()) part.direct.push_back(sweep.direct[k]);
+  }
+  part.picture = [&sweep, chosen](std::size_t k) { return sweep.picture(chosen[k]); };
+  return part;
 }
 
 // One weight for all pixels, as the paper's mean of squares has: that of a usual pixel.
@@ -131,7 +145,8 @@ Result<FitComparison> compare_with_walch(const FlareSweep& sweep, const SweepGeo
   options.max_width = settings.max_width;
   Context quiet = context;
   quiet.progress = nullptr;
-  auto reduced = reduced_stations(few_of(sweep, settings.max_stations), moved, options, quiet);
+  auto reduced =
+      reduced_stations(part_of(sweep, neighbours(sweep, geometry, settings.max_stations)), moved, options, quiet);
   if (!reduced) return tl::unexpected(reduced.error());
   const HaloProfile halo = halo_of(reduced->stations, reduced->lights_px, {reduced->masked_px, kComparedHalo});
   std::vector<FitStation> stations = stations_without(*reduced, halo, options.model_error);
