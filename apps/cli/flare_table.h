@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fit found, as text, JSON and CSV.
+// The result of a fit as text, JSON and CSV.
 #pragma once
 
 #include <string>

@@ -122,7 +122,7 @@ void add_fit_numbers(CLI::App& command, FitRequest& request) {
   add_number(command, "--max-ghosts", request.fit.max_ghosts, 1, 200, "ghosts to look for");
   add_number(command, "--width", request.fit.max_width, 32, kWidestFitted, "pixels that pictures are reduced to");
   add_number(command, "--held-out", request.fit.held_out_every, 0, 1000,
-             "one station of so many is not fitted; 0: all are");
+             "leave every N-th station out of the fit, to test it; 0: fit all");
   command.add_option("--f-number", request.exposure.f_number, "of the photographs")
       ->check(CLI::Range(0.1, 1000.0))
       ->option_text("N");

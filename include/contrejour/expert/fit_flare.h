@@ -28,9 +28,9 @@ struct FlareSweep {
   std::vector<double> angles_rad;  // of the head, as for the geometry
   std::function<Result<CapturedImage>(std::size_t station)> picture;
   Rgb light{1, 1, 1};  // the sum of the light's direct image over the pixels of such a picture; its levels' unit
-  // What the short exposure of each station says, or nothing where it says nothing: the place of the light's image,
-  // which the geometry then does not need to predict from an angle that the head met to a fiftieth of a degree only;
-  // its flux, which stands for `light`, so that the lamp's drift divides out. Empty: no station has any.
+  // The light's image in the short exposure of each station, or nothing for a station without a usable one. Its
+  // position is measured better than the head's angle, which is off by up to a fiftieth of a degree, predicts it. Its
+  // flux stands for `light`, so that the lamp's drift divides out. Empty: no station has any.
   std::vector<std::optional<DirectFlux>> direct = {};
 };
 

@@ -12,7 +12,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-// Where in a row each wanted column is.
+// The index in a row of each wanted column.
 using Places = std::vector<std::size_t>;
 
 Result<Places> places_of(const TrackLine& line, const std::string& file, const std::vector<std::string_view>& wanted,

@@ -22,7 +22,7 @@ struct TrackLine {
 [[nodiscard]] std::vector<TrackLine> track_lines(std::string_view text, std::string_view comments,
                                                  bool keep_spaces = false);
 
-// What lies between separators; several in a row count as one, unless fields may be empty.
+// The texts between separators; several in a row count as one, unless fields may be empty.
 [[nodiscard]] std::vector<std::string_view> fields_between(std::string_view line, std::string_view separators);
 [[nodiscard]] std::vector<std::string_view> all_fields(std::string_view line, char separator);
 

@@ -41,7 +41,7 @@ void raise(Rgb& flux, const Rgb& other, double weight) {
   for (std::size_t c = 0; c < 3; ++c) flux[c] = std::max(flux[c], weight * other[c]);
 }
 
-// Where the shot's frames begin and end that the track has a point for.
+// The frames of the shot that the track has a point for.
 struct FrameSpan {
   std::ptrdiff_t from = 0, to = 0;  // [from, to)
 };
@@ -53,9 +53,9 @@ FrameSpan frames_near(const LightTrack& track, std::span<const int> frames, int 
   return {std::max<std::ptrdiff_t>(0, first - fade - 1), std::min<std::ptrdiff_t>(count, last + fade + 2)};
 }
 
-// Where the light is no longer seen, in the direction of the step, flux falls by at most a part of 1 / (fade_frames +
-// 1) from frame to frame: in the frames that follow, and in the last that it is seen in, where it may be nearly
-// covered.
+// After the light was last seen, in the direction of the step, its flux falls by at most 1 / (fade_frames + 1) of
+// itself from frame to frame. This holds for the frames that follow and for the last ones that it is seen in, because
+// it may be nearly covered there.
 void add_fades(FadedTrack& faded, const std::vector<Rgb>& seen_flux, int fade_frames, std::ptrdiff_t step) {
   const auto count = static_cast<std::ptrdiff_t>(faded.points.size());
   const auto is_seen = [&](std::ptrdiff_t k) {

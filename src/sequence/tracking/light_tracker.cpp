@@ -11,8 +11,8 @@
 namespace contrejour::inline internal {
 namespace {
 
-// What it costs if a light has no detection, or a detection no light: less at the edge of the picture, where lights
-// leave and enter.
+// A light without a detection, or a detection without a light, costs this much; less at the edge of the picture, where
+// lights leave and enter.
 constexpr double kCostOfNoPair = 8.0, kCostOfNoPairAtEdge = 3.0;
 constexpr double kGainUnit = 1e4;  // gains are whole numbers of 1 / kGainUnit
 constexpr std::size_t kMinForCommonMotion = 2;

@@ -45,7 +45,7 @@ Light sun(double azimuth_rad, double elevation_rad) {
   return light;
 }
 
-// Of the green channel, in pixels.
+// The centroid of the green channel, in pixels.
 Vec2 centroid_of(const Image& image) {
   Vec2 sum;
   double weights = 0.0;
