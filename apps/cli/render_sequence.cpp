@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "cli/frame_lens.h"
 #include "cli/frame_report.h"
 #include "cli/long_task.h"
@@ -23,7 +25,9 @@ Result<RenderOptions> options_of_frame(const RenderOptions& options, const Frame
 
 // The files of a frame, for its record.
 FrameFiles files_of(const RenderOptions& own) {
-  return frame_files(settings_record("render", own.lens, own.values), {}, own.outputs());
+  SettingsRecord settings = settings_record("render", own.lens, own.values);
+  settings.text += fmt::format("default light = {}\n", own.needs_light);
+  return frame_files(std::move(settings), {}, own.outputs());
 }
 
 Result<PlannedFrame> plan_numbered(const RenderOptions& options, const FrameValues& values, const FrameLens& lens,

@@ -23,6 +23,17 @@ Vec3 middle_of(std::span<const Vec3> path) {
   return normalized(path[last / 2] + path[(last + 1) / 2]);
 }
 
+// Tangents of the angle from a direction; for one more than 89.9 degrees away, tangents far beyond any light's extent,
+// so that renderers refuse the light (check_extent) instead of seeing its reflection through the camera.
+Vec2 tangents_to(Vec3 from, Vec3 direction) {
+  constexpr double kLeastCosine = 1.7e-3;
+  const Vec2 tangents = tangents_between(from, direction);
+  const double cosine = dot(normalized(from), normalized(direction));
+  return cosine >= kLeastCosine ? tangents : tangents * (cosine / kLeastCosine);
+}
+
+bool is_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
 struct Box {
   Vec2 least, most;
 };
@@ -133,7 +144,12 @@ Light swept_light(Light light, std::span<const Vec3> path) {
   if (light.shape) return light;
   light.direction = middle_of(path);
   std::vector<Vec2> tangents;
-  for (const Vec3 direction : path) tangents.push_back(tangents_between(light.direction, direction));
+  for (const Vec3 direction : path) {
+    tangents.push_back(tangents_to(light.direction, direction));
+    if (is_finite(tangents.back())) continue;
+    light.direction = direction;  // no light is there, and renderers say so (check_light)
+    return light;
+  }
   const Box box = box_of(tangents, 0.0);
   const double extent = std::max(box.most.x - box.least.x, box.most.y - box.least.y);
   if (extent <= std::max(kLeastPath_rad, kLeastPathOfDisc * light.radius_rad)) return light;

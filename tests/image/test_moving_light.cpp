@@ -106,3 +106,16 @@ TEST_CASE("a light that hardly moves stays as it is") {
   CHECK_FALSE(still.shape);
   CHECK(still.radius_rad == 0.01);
 }
+
+TEST_CASE("paths that no light takes are refused by the renderers' checks") {
+  const auto is_refused = [](const std::vector<Vec3>& path) {
+    return !check_light(swept_light(kLight, path), ColourSpace::Rec709);
+  };
+  const Vec3 left = direction_from_angles(-1.55, 0), right = direction_from_angles(1.55, 0);
+  CHECK(is_refused({left, right}));
+  CHECK(is_refused({left, left, right}));  // nearly behind the middle of the path
+  CHECK(is_refused({left, Vec3{0, 0, 1}, right}));
+  const double nan = std::nan("");
+  CHECK(is_refused({Vec3{0, 0, 1}, Vec3{0, 0, 1}, Vec3{nan, nan, nan}}));
+  CHECK(is_refused({Vec3{nan, 0, 1}, Vec3{0, 0, 1}}));
+}

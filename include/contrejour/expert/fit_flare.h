@@ -42,8 +42,9 @@ struct FlareFitOptions {
   int max_width = 320;  // pictures are reduced by whole numbers to at most this width
   double model_error = 0.1;  // of a pixel's value: what the model is not expected to describe
   double huber = 3.0;  // standard deviations from which residuals count linearly
-  // Each station of so many is not fitted: it tells how many coefficients the curves of the ghosts need, and what the
-  // flare is worth at angles that it was not fitted to. 0: all are fitted, and the curves have the fewest coefficients.
+  // Every n-th station is left out of the fit: it tells how many coefficients the curves of the ghosts need, and how
+  // well the flare holds at angles that it was not fitted to. 0: all are fitted, and the curves have the fewest
+  // coefficients.
   int held_out_every = 5;
   int max_degree = 2;  // coefficients of a curve beyond the fewest
   int pictures = 0;  // stations, evenly spaced, whose pictures FittedStation keeps
