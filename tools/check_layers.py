@@ -43,6 +43,7 @@ FOLDERS = {
     "src/machine": "machine",
     "src/sequence": "sequence",
     "src/measure": "measure",
+    "src/requests": "requests",
     "src/gpu": "gpu",
     "apps": "apps",
     "python": "apps",
@@ -132,6 +133,7 @@ PUBLIC = {
     "expert/parameter_values.h": "settings",
     "expert/settings.h": "settings",
     "expert/preview_exposure.h": "settings",
+    "expert/requests.h": "requests",
     "apply.h": "compositing",
     "expert/apply_files.h": "compositing",
     "expert/detected_picture.h": "compositing",
@@ -180,6 +182,7 @@ MAY_INCLUDE = {
     "machine": ["trace", "ghosts", "image", "render/planning"],
     "measure": ["render/session", "image"],
     "gpu": ["render/planning", "render/polygons", "image"],
+    "requests": ["compositing", "render/session"],
     "api": ["compositing", "render/session"],
     "apps": ["public"],
 }
