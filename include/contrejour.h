@@ -160,7 +160,7 @@ typedef struct cj_lens_info {
   size_t surface_count, warning_count;
 } cj_lens_info;
 CONTREJOUR_API cj_status cj_lens_get_info(const cj_lens* lens, cj_lens_info* info, cj_error* error);
-// What the reader interpreted differently from its file; NULL beyond the last.
+// A warning of the reader, of what it interpreted differently from the file; NULL beyond the last.
 CONTREJOUR_API const char* cj_lens_warning(const cj_lens* lens, size_t index);
 
 typedef int32_t cj_surface_kind;

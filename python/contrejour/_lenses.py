@@ -59,7 +59,7 @@ class Prescription:
 
     @property
     def warnings(self) -> list[str]:
-        """What the reader interpreted differently from its file."""
+        """Warnings of the reader, of what it interpreted differently from the file."""
         return self._native.warnings
 
     @property

@@ -70,7 +70,7 @@ def divided(lights: AnyLights, parameters: dict[str, Any]) -> list[tuple[Any, ..
 
 @dataclass(frozen=True, eq=False)
 class Flare:
-    """What lights add to a photograph, in their own units."""
+    """The flare that lights add to a photograph, in their own units."""
 
     image: np.ndarray  # float32 (height, width, 3), linear; the array given as `out`, if any
     statistics: dict[str, Any]  # time by phase in ms, rays, primitives, ghosts rendered, memory

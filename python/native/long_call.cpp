@@ -6,7 +6,7 @@
 namespace contrejour::python {
 namespace {
 
-// What the signal handler touches: the flag of the main thread's call, and the handler that was there before.
+// The signal handler touches these: the flag of the main thread's call, and the handler that was there before.
 std::atomic<std::atomic<bool>*> flag_of_interrupt{nullptr};
 std::atomic<PyOS_sighandler_t> handler_before{nullptr};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::atomic<bool>*>::is_always_lock_free &&

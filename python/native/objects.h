@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Python passes to the module's functions, in the library's types.
+// Python's arguments in the library's types.
 #pragma once
 
 #include <memory>

@@ -23,7 +23,7 @@ struct RayArrays {
   py::array_t<double> sensor_mm, direction, transmission, relative_height, blocked_by, stop;
 };
 
-// Where the results of RayArrays lie, for use without Python's lock.
+// The memory of RayArrays, for use without Python's lock.
 struct RayPointers {
   explicit RayPointers(RayArrays& arrays)
       : status(arrays.status.mutable_data()), sensor_mm(arrays.sensor_mm.mutable_data()),

@@ -49,6 +49,22 @@ cj_status guarded_create(Object** to, cj_error* error, const Body& body) noexcep
   });
 }
 
+// The value that body() returns, or, where it throws, another one.
+template <class Value, class Body>
+Value guarded_value(Value otherwise, const Body& body) noexcept {
+  try {
+    return body();
+  } catch (...) {
+    return otherwise;
+  }
+}
+
+// The text of this index, NULL beyond the last.
+template <class Texts>
+const char* text_at(const Texts& texts, std::size_t index) {
+  return index < texts.size() ? texts[index].c_str() : nullptr;
+}
+
 // Errors: InvalidArgument if a required pointer is NULL.
 [[nodiscard]] inline Result<void> require(const void* pointer, std::string_view what) {
   if (pointer != nullptr) return {};

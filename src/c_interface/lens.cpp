@@ -73,11 +73,13 @@ cj_lens_figures figures_at(const LensState& lens, double lambda_nm) {
 
 using contrejour::Result;
 
-size_t cj_bundled_lens_count(void) { return contrejour::lens_names().size(); }
+size_t cj_bundled_lens_count(void) {
+  return contrejour::guarded_value(size_t{0}, [] { return contrejour::lens_names().size(); });
+}
 
 const char* cj_bundled_lens_name(size_t index) {
-  const auto& names = contrejour::lens_names();
-  return index < names.size() ? names[index].c_str() : nullptr;
+  return contrejour::guarded_value<const char*>(nullptr,
+                                                [&] { return contrejour::text_at(contrejour::lens_names(), index); });
 }
 
 cj_status cj_lens_find(const char* name_or_file, cj_lens** lens, cj_error* error) {
@@ -121,8 +123,7 @@ cj_status cj_lens_get_info(const cj_lens* lens, cj_lens_info* info, cj_error* er
 }
 
 const char* cj_lens_warning(const cj_lens* lens, size_t index) {
-  if (lens == nullptr || index >= lens->prescription.warnings.size()) return nullptr;
-  return lens->prescription.warnings[index].c_str();
+  return lens != nullptr ? contrejour::text_at(lens->prescription.warnings, index) : nullptr;
 }
 
 cj_status cj_lens_get_surface(const cj_lens* lens, size_t index, cj_surface* surface, cj_error* error) {

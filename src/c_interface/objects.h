@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the C interface's opaque types hold. Thread-safety: plain values, but for cj_cancel, which any thread may set.
+// The contents of the C interface's opaque types. Thread-safety: plain values, but for cj_cancel, which any thread may
+// set.
 #pragma once
 
 #include <atomic>

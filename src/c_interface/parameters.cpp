@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of parameters for C callers.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,9 @@ cj_parameter_kind kind_of_parameter(params::Kind kind) {
 }  // namespace
 }  // namespace contrejour
 
-size_t cj_parameter_count(void) { return contrejour::params::all_parameters().size(); }
+size_t cj_parameter_count(void) {
+  return contrejour::guarded_value(size_t{0}, [] { return contrejour::params::all_parameters().size(); });
+}
 
 cj_status cj_parameter_get(size_t index, cj_parameter* parameter, cj_error* error) {
   using namespace contrejour;

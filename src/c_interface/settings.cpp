@@ -151,9 +151,11 @@ cj_status cj_settings_load_preset(cj_settings* settings, const char* name_or_fil
 
 const char* cj_settings_lens(const cj_settings* settings) { return settings != nullptr ? settings->lens.c_str() : ""; }
 
-size_t cj_bundled_preset_count(void) { return contrejour::preset_names().size(); }
+size_t cj_bundled_preset_count(void) {
+  return contrejour::guarded_value(size_t{0}, [] { return contrejour::preset_names().size(); });
+}
 
 const char* cj_bundled_preset_name(size_t index) {
-  const auto& names = contrejour::preset_names();
-  return index < names.size() ? names[index].c_str() : nullptr;
+  return contrejour::guarded_value<const char*>(nullptr,
+                                                [&] { return contrejour::text_at(contrejour::preset_names(), index); });
 }

@@ -38,7 +38,7 @@ params::Values quick_values(const char* light = nullptr) {
   return values;
 }
 
-// What a test does with the interface, released at its end.
+// The objects of a test, destroyed at its end.
 struct CObjects {
   CObjects() {
     REQUIRE(cj_settings_create(&settings, &error) == CJ_OK);
@@ -70,6 +70,12 @@ cj_image image_over(std::vector<float>& pixels) {
   image.pixels = pixels.data();
   image.width = kWidth;
   image.height = kHeight;
+  return image;
+}
+
+Image picture_in_cpp(const std::vector<float>& pixels) {
+  Image image(kWidth, kHeight);
+  std::copy(pixels.begin(), pixels.end(), image.pixels.begin());
   return image;
 }
 
@@ -126,6 +132,25 @@ TEST_CASE("C: a picture has the bits of the C++ interface's") {
   }
   CHECK(sum > 0.0);
   CHECK(difference < 1e-2 * sum);  // the method's error, for which 0.02 was asked
+}
+
+TEST_CASE("C: directions of lights are those of the settings' lights") {
+  CObjects objects;
+  const params::Values values = quick_values();
+  const auto lens = params::lens_of(*find_lens("cooke-triplet"), values);
+  double direction[3] = {};
+  REQUIRE(cj_direction_from_image(objects.state, objects.settings, 0.7, 0.33, 0.0, direction, &objects.error) == CJ_OK);
+  const Vec3 expected = picture_request(values, *lens)->lights.front().direction;  // that of the default light
+  CHECK(Vec3{direction[0], direction[1], direction[2]} == expected);
+  CHECK(cj_direction_from_angles(2.0, 0.0, direction, &objects.error) == CJ_INVALID_ARGUMENT);
+  CHECK(direction[0] == expected.x);
+}
+
+TEST_CASE("C: the library says which version runs") {
+  std::int32_t major = -1, minor = -1, patch = -1;
+  cj_version(&major, &minor, &patch);
+  CHECK(std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch) == cj_version_string());
+  cj_version(nullptr, nullptr, nullptr);
 }
 
 TEST_CASE("C: rows from the bottom, in half floats with alpha, hold the same picture") {
@@ -262,6 +287,7 @@ TEST_CASE("C: ghosts and detected lights are those of the C++ functions") {
   REQUIRE(cj_light_list_get(lights, 0, &light, &objects.error) == CJ_OK);
   CHECK(light.x_px == doctest::Approx(7.5));
   CHECK(light.peak == 900.0);
+  CHECK(cj_light_list_threshold(lights) == detect_lights(picture_in_cpp(pixels))->threshold);
   cj_light_list_destroy(lights);
 }
 
@@ -271,11 +297,7 @@ TEST_CASE("C: the flare of a photograph in memory") {
   std::vector<float> pixels(black().size(), 0.1F);
   pixels[std::size_t{3} * (8 * kWidth + 34)] = 50000.0F;
   pixels[4] = std::numeric_limits<float>::quiet_NaN();
-  Picture picture = picture_of([&] {
-    Image image(kWidth, kHeight);
-    std::copy(pixels.begin(), pixels.end(), image.pixels.begin());
-    return image;
-  }());
+  Picture picture = picture_of(picture_in_cpp(pixels));
   const params::Values values = quick_values();
   const auto lens = params::lens_of(*find_lens("cooke-triplet"), values);
   const auto expected = apply_flare(picture, *lens, values);

@@ -43,7 +43,7 @@ class SamePictureTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_same_bits(self):
-        # Of the second lens, pixels are square on the sensor only with its squeeze.
+        # The second lens squeezes, so that its square pixels are none on the sensor.
         for lens, more in ((LENS, {"size": "60x40"}), ("schneider-anamorphic-31", {"size": "60x40", "pixel-aspect": "1"})):
             settings = {**SETTINGS, **more}
             reference = self.by_command_line(lens, settings)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a front end asks of the library for a user's values (parameter_values.h): the picture that `contrejour render`
-// draws, the ghosts that `contrejour ghosts` lists, the lights that `contrejour apply` finds. A front end that goes
-// this way gets the command line's results, bit for bit. Errors: InvalidArgument; Io, Parse and Unsupported for files
+// Requests of a front end for a user's values (parameter_values.h): the picture that `contrejour render` draws, the
+// ghosts that `contrejour ghosts` lists, the lights that `contrejour apply` finds. A front end that goes this way gets
+// the command line's results, bit for bit. Errors: InvalidArgument; Io, Parse and Unsupported for files
 // that a value names; Cancelled. Thread-safety: pure functions, but for the renderer and the pixels that they write.
 #pragma once
 
