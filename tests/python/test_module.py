@@ -180,12 +180,16 @@ class RenderTest(unittest.TestCase):
 
         thread = threading.Thread(target=count)
         thread.start()
-        before = counted[0]
-        contrejour.render(LENS, LIGHT, width=640, height=400, error=0.001)
-        during = counted[0] - before
+        during = 0
+        for _ in range(20):  # a busy machine may let the thread wait
+            before = counted[0]
+            contrejour.render(LENS, LIGHT, width=640, height=400, error=0.001)
+            during = max(during, counted[0] - before)
+            if during > 3:
+                break
         done.set()
         thread.join()
-        self.assertGreater(during, 1)
+        self.assertGreater(during, 3)
 
 
 class PhotographTest(unittest.TestCase):
