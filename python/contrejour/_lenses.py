@@ -95,7 +95,8 @@ class Prescription:
 
     def table(self) -> str:
         """The surfaces as text."""
-        rows = [f"{self.name}", f"{'':>3} {'radius mm':>11} {'thickness mm':>13} {'semi-diameter mm':>17}  glass, coating"]
+        headings = f"{'':>3} {'radius mm':>11} {'thickness mm':>13} {'semi-diameter mm':>17}  glass, coating"
+        rows = [self.name, headings]
         for number, s in enumerate(self.surfaces, 1):
             radius = s.kind if s.kind == "stop" else "plane" if math.isinf(s.radius_mm) else f"{s.radius_mm:.4f}"
             coating = "" if s.kind == "stop" else s.coating

@@ -44,7 +44,8 @@ class Light:
 
     def _fields(self) -> tuple[Any, ...]:
         value = np.broadcast_to(np.asarray(self.value, dtype=float), 3)
-        return tuple(map(float, self.direction)), tuple(map(float, value)), self.spectrum, self.distance_mm, self.radius_rad
+        direction = tuple(map(float, self.direction))
+        return direction, tuple(map(float, value)), self.spectrum, self.distance_mm, self.radius_rad
 
 
 AnyLights = Union[Light, str, tuple, Iterable[Union[Light, str, tuple]], None]
