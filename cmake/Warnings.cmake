@@ -3,7 +3,7 @@
 if(MSVC)
   add_compile_options(/W4 /permissive- /utf-8)
 else()
-  add_compile_options(-Wall -Wextra -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>)
+  add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor)
   # The reference must give the same numbers everywhere: no contraction into fused multiply-adds
   # unless a packet kernel asks for one by name.
   add_compile_options(-ffp-contract=off)
