@@ -8,12 +8,13 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/contrejour)
 
 set(libraries contrejour)
 if(TARGET contrejour_shared)
-  list(APPEND libraries contrejour_shared)
+  list(APPEND libraries contrejour_shared contrejour_c)
 endif()
 install(TARGETS ${libraries} EXPORT contrejour-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES include/contrejour.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY include/contrejour DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT contrejour-targets NAMESPACE contrejour:: DESTINATION ${package_dir})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -50,3 +51,12 @@ configure_package_config_file(cmake/contrejour-config.cmake.in ${CMAKE_BINARY_DI
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/contrejour-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/contrejour-config.cmake ${CMAKE_BINARY_DIR}/contrejour-config-version.cmake
         DESTINATION ${package_dir})
+
+# pkg-config's file for programs in C (and in C++) that link the shared library. It finds the prefix from its own place,
+# so that the package may be moved.
+if(TARGET contrejour_shared)
+  set(pkgconfig_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  file(RELATIVE_PATH CONTREJOUR_PC_TO_PREFIX /${pkgconfig_dir} /)
+  configure_file(cmake/contrejour.pc.in ${CMAKE_BINARY_DIR}/contrejour.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/contrejour.pc DESTINATION ${pkgconfig_dir})
+endif()

@@ -43,15 +43,18 @@ FOLDERS = {
     "src/machine": "machine",
     "src/sequence": "sequence",
     "src/measure": "measure",
+    "src/requests": "requests",
+    "src/c_interface": "c_interface",
     "src/gpu": "gpu",
     "apps": "apps",
     "python": "apps",
 }
 RENDERERS = "src/render"
 
-# Public header -> the layer that implements it.
+# Public header, from include/contrejour -> the layer that implements it.
 PUBLIC = {
     "contrejour.h": "api",
+    "../contrejour.h": "c_interface",
     "export.h": "base",
     "expert/check_lens.h": "lens",
     "expert/coating.h": "coating",
@@ -132,6 +135,7 @@ PUBLIC = {
     "expert/parameter_values.h": "settings",
     "expert/settings.h": "settings",
     "expert/preview_exposure.h": "settings",
+    "expert/requests.h": "requests",
     "apply.h": "compositing",
     "expert/apply_files.h": "compositing",
     "expert/detected_picture.h": "compositing",
@@ -180,7 +184,9 @@ MAY_INCLUDE = {
     "machine": ["trace", "ghosts", "image", "render/planning"],
     "measure": ["render/session", "image"],
     "gpu": ["render/planning", "render/polygons", "image"],
+    "requests": ["compositing", "render/session"],
     "api": ["compositing", "render/session"],
+    "c_interface": ["api", "requests"],
     "apps": ["public"],
 }
 
@@ -205,7 +211,7 @@ def layer_of(path):
     """Layer of a path relative to the root, or None where the table does not know its folder."""
     parts = path.split("/")
     if parts[0] == "include":
-        name = "/".join(parts[2:])
+        name = "/".join(parts[2:]) if len(parts) > 2 else "../" + parts[1]
         return PUBLIC.get(name)
     for size in range(len(parts) - 1, 0, -1):
         folder = "/".join(parts[:size])

@@ -8,8 +8,8 @@ import pathlib
 import sys
 
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
-FOLDERS = ("include", "src", "apps", "tests", "bench", "fuzz", "tools", "cmake", "python")
-SUFFIXES = {".h", ".cpp", ".py", ".cmake"}
+FOLDERS = ("include", "src", "apps", "tests", "bench", "fuzz", "tools", "cmake", "python", "examples")
+SUFFIXES = {".h", ".c", ".cpp", ".py", ".pyi", ".cmake"}
 
 
 def is_source(path):

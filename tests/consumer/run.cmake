@@ -14,6 +14,24 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
 run(${WORK}/build/consumer_of_shared)
+set(in_c cooke-triplet ${WORK}/flare.pfm size=48x32 fnumber=8)
+run(${WORK}/build/consumer_in_c ${in_c})
+
+# A program in C that is built without CMake.
+find_program(PKG_CONFIG NAMES pkgconf pkg-config)
+file(GLOB_RECURSE pc_file ${WORK}/moved/*/contrejour.pc)
+if(NOT pc_file)
+  message(FATAL_ERROR "no contrejour.pc was installed")
+endif()
+if(PKG_CONFIG)
+  execute_process(COMMAND ${PKG_CONFIG} --cflags --libs ${pc_file} OUTPUT_VARIABLE flags
+                  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(cc -std=c99 -Wall -Wextra -pedantic -Werror ${SOURCE}/../../examples/c/flare.c -o ${WORK}/in_c ${flags})
+  cmake_path(GET pc_file PARENT_PATH library_dir)
+  cmake_path(GET library_dir PARENT_PATH library_dir)
+  run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${library_dir} ${WORK}/in_c ${in_c})
+endif()
 
 # The shared library exports the public headers' functions and classes, and none of its own internals.
 find_program(NM NAMES nm llvm-nm REQUIRED)

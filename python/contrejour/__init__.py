@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contrejour: physically based lens flare.
+
+    import contrejour
+    flare = contrejour.render("heliar", "12,8:1000", f_number=8, width=960, height=640)
+    flare.image                                  # float32 (640, 960, 3), linear
+    contrejour.ghosts("heliar", "12,8")[0]       # the brightest ghost
+    contrejour.apply(photograph, preset="old-portrait").image
+
+Functions take every parameter of parameters() as a keyword argument, in the units that it names. Lengths are in mm,
+wavelengths in nm, pixels linear; a picture is an array of shape (height, width, channels), rows from the top.
+"""
+from ._errors import CancelledError, Error, InvalidArgumentError, IoError, ParseError, UnsupportedError
+from ._lenses import (
+    FirstOrder,
+    LensState,
+    Prescription,
+    SeidelSums,
+    Surface,
+    bundled_lenses,
+    configure_lens,
+    find_lens,
+    read_lens_toml,
+)
+from ._native import version as __version__
+from ._pictures import (
+    AppliedFlare,
+    Comparison,
+    DetectedLight,
+    Detection,
+    apply,
+    compare,
+    detect_lights,
+    png_of,
+    read_picture,
+    write_picture,
+)
+from ._rays import GhostFigures, TracedRays, ghosts, trace
+from ._rendering import Flare, Light, Renderer, render, starburst
+from ._settings import Parameter, Preset, bundled_presets, find_preset, parameters
+
+__all__ = [
+    "AppliedFlare",
+    "CancelledError",
+    "Comparison",
+    "DetectedLight",
+    "Detection",
+    "Error",
+    "FirstOrder",
+    "Flare",
+    "GhostFigures",
+    "InvalidArgumentError",
+    "IoError",
+    "LensState",
+    "Light",
+    "Parameter",
+    "ParseError",
+    "Prescription",
+    "Preset",
+    "Renderer",
+    "SeidelSums",
+    "Surface",
+    "TracedRays",
+    "UnsupportedError",
+    "__version__",
+    "apply",
+    "bundled_lenses",
+    "bundled_presets",
+    "compare",
+    "configure_lens",
+    "detect_lights",
+    "find_lens",
+    "find_preset",
+    "ghosts",
+    "parameters",
+    "png_of",
+    "read_lens_toml",
+    "read_picture",
+    "render",
+    "starburst",
+    "trace",
+    "write_picture",
+]
