@@ -71,6 +71,7 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
   const auto values = FrameValues::create(options.lights, command_line, options.values);
   if (!values) return tl::unexpected(values.error());
   if (is_sequence(options.input) || !sequence.frames.empty()) return apply_to_sequence(options, *values, sequence);
+  if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());
   options.values = values->of_still();
   return apply_to_still(options);
 }

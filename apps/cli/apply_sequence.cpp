@@ -98,10 +98,6 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& va
   if (!sequence) return tl::unexpected(sequence.error());
   auto lens = FrameLens::create(options.lens, values, sequence->frames.front(), MeasuredUse::Photograph);
   if (!lens) return tl::unexpected(lens.error());
-  auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
-  if (!renderer) return tl::unexpected(renderer.error());
-  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
-
   const auto is_missing = [&](int frame) { return sequence->missing.contains(frame); };
   std::vector<int> frames = sequence->frames;
   if (sequence_options.resume)
@@ -109,6 +105,10 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& va
       const auto own = options_of_frame(options, values, frame);
       return own && is_frame_done(files_of(*own, is_missing(frame)));
     });
+  if (sequence_options.list_frames) return print_frames(frames);
+  auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   FrameReader reader(options, values, *lens, *sequence);
   FrameReport report(options.json);

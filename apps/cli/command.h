@@ -30,6 +30,7 @@ void add_bench(CLI::App& app, Action& action);
 void add_coating(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
 void add_lights(CLI::App& app, Action& action);
+void add_farm(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);
 void add_lens_info(CLI::App& lens, Action& action);
@@ -53,6 +54,9 @@ void add_measure_predict(CLI::App& measure, Action& action);
 
 void add_lights_track(CLI::App& lights, Action& action);
 void add_lights_import(CLI::App& lights, Action& action);
+
+void add_farm_slurm(CLI::App& farm, Action& action);
+void add_farm_commands(CLI::App& farm, Action& action);
 
 void add_bench_tables(CLI::App& bench, Action& action);
 void add_bench_effects(CLI::App& bench, Action& action);

@@ -66,6 +66,7 @@ Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
   if (!sequence.frames.empty()) return render_sequence(options, *values, sequence);
   if (is_sequence(options.output))
     return failure(ErrorCode::InvalidArgument, "a sequence needs its frames: --frames 1-48", {options.output});
+  if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());
   options.values = values->of_still();
   return render_still(options);
 }

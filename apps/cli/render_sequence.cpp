@@ -47,14 +47,16 @@ Result<int> render_sequence(const RenderOptions& options, const FrameValues& val
   if (!frames) return tl::unexpected(frames.error());
   auto lens = FrameLens::create(options.lens, values, frames->front(), MeasuredUse::Lights);
   if (!lens) return tl::unexpected(lens.error());
-  auto renderer = FrameRenderer::create(*lens, values.at(frames->front()));
-  if (!renderer) return tl::unexpected(renderer.error());
-  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
+  const int first = frames->front();
   if (sequence.resume)
     leave_out_done(*frames, [&](int frame) {
       const auto own = options_of_frame(options, values, frame);
       return own && is_frame_done(files_of(*own));
     });
+  if (sequence.list_frames) return print_frames(*frames);
+  auto renderer = FrameRenderer::create(*lens, values.at(first));
+  if (!renderer) return tl::unexpected(renderer.error());
+  if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   FrameReport report(options.json);
   const LongTask task("rendering", options.values.integer("threads"));

@@ -65,6 +65,10 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceI
       .add_flag("--resume", options.resume, "keep frames that were finished with the same settings from the same files")
       ->group(kSequenceGroup);
   command.add_flag("--keep-going", options.keep_going, "render the other frames when one fails")->group(kSequenceGroup);
+  command
+      .add_flag("--list-frames", options.list_frames,
+                "print the frames that would be rendered (with --resume: those that are not done), and render none")
+      ->group(kSequenceGroup);
 }
 
 bool is_sequence(const std::string& name) { return is_frame_pattern(name) && !exists(name); }
@@ -144,6 +148,16 @@ void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame
   frames.erase(std::remove_if(frames.begin(), frames.end(), is_done), frames.end());
   if (frames.size() < before)
     print_warnings({fmt::format("{} of {} frames are done already", before - frames.size(), before)});
+}
+
+Result<void> check_is_not_listed(const SequenceOptions& options) {
+  if (!options.list_frames) return {};
+  return invalid_argument("--list-frames lists those of a sequence; give names with #### for the number of a frame");
+}
+
+int print_frames(const std::vector<int>& frames) {
+  if (!frames.empty()) print(frame_range_text(frames) + "\n");
+  return 0;
 }
 
 int report_failures(const std::vector<FrameFailure>& failures, std::size_t frame_count) {

@@ -25,6 +25,7 @@ struct SequenceOptions {
   std::string missing = "error";  // or "skip", "black"
   bool resume = false;
   bool keep_going = false;
+  bool list_frames = false;  // print the frames that would be rendered, and render none
 };
 
 // Whether frames are read from files, which may be missing.
@@ -32,7 +33,7 @@ enum class SequenceInput { None, Files };
 
 // Adds --frames and, for files, --missing.
 void add_frame_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
-// The same and --resume and --keep-going, for a sequence that is rendered.
+// The same and --resume, --keep-going and --list-frames, for a sequence that is rendered.
 void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
 
 // True for a name with a place for the number of a frame, unless a file has exactly this name.
@@ -70,6 +71,12 @@ struct SettingsRecord {
 
 // Leaves out the frames that are done; says how many.
 void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame)>& is_done);
+
+// Errors: InvalidArgument for --list-frames, of which a still has none.
+[[nodiscard]] Result<void> check_is_not_listed(const SequenceOptions& options);
+
+// Prints frames as a range, for --list-frames; nothing if there are none. Returns the exit code.
+[[nodiscard]] int print_frames(const std::vector<int>& frames);
 
 // Prints the frames that failed and returns the exit code.
 [[nodiscard]] int report_failures(const std::vector<FrameFailure>& failures, std::size_t frame_count);

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench/fresh_process.h"
+#include "cli/child_process.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "contrejour/expert/settings.h"
