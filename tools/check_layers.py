@@ -39,6 +39,8 @@ FOLDERS = {
     "src/render/ray_maps": "render/ray_maps",
     "src/render/pupils": "render/pupils",
     "src/settings": "settings",
+    "src/plates": "plates",
+    "src/plate_modules": "plate_modules",
     "src/compositing": "compositing",
     "src/machine": "machine",
     "src/sequence": "sequence",
@@ -143,6 +145,7 @@ PUBLIC = {
     "expert/flare_visibility.h": "compositing",
     "expert/measured_settings.h": "compositing",
     "expert/pixel_grid.h": "compositing",
+    "expert/plate.h": "plates",
 }
 
 # "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
@@ -179,6 +182,8 @@ MAY_INCLUDE = {
     "render/starburst": ["render/planning", "ghosts", "diffraction", "render/area_lights"],
     "render/session": ["*renderers", "render/area_lights", "render/starburst"],
     "settings": ["render/planning"],
+    "plates": ["image"],
+    "plate_modules": ["plates"],
     "compositing": ["settings", "render/session", "measure"],
     "sequence": ["settings", "image"],
     "machine": ["trace", "ghosts", "image", "render/planning"],
@@ -199,6 +204,7 @@ FENCED = [
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
+    (r"OpenImageIO/|OpenColorIO/", ("src/plate_modules",), "modules of their own, loaded when they are needed first"),
     (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/pupils", "src/measure/fit"),
      "one wrapper of the eigen solver, three of least squares"),
 ]

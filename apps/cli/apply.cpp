@@ -37,6 +37,7 @@ constexpr const char* kApplyExamples =
     "  contrejour apply heliar plate.exr -o out.exr --no-detect --light-at 1.1,-0.1:2e6\n"
     "  contrejour apply heliar comp.exr -o out.exr --layer beauty\n"
     "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume\n"
+    "  contrejour apply heliar plate.####.dpx -o out.####.dpx --input-space logc3\n"
     "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml";
 
 Result<int> apply_to_still(const ApplyOptions& options) {
@@ -78,8 +79,7 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
 
 // The error if only one of LENS and IN is given.
 CLI::ParseError missing_argument(const std::string& given) {
-  const std::string ending = lower_extension(given);
-  if (ending != ".exr" && ending != ".png") return CLI::RequiredError("IN");
+  if (!is_plate_name(given)) return CLI::RequiredError("IN");
   return CLI::RequiredError(
       fmt::format("LENS before {} (`contrejour lens list`, or a preset that names a lens, --preset)", given));
 }
@@ -91,9 +91,13 @@ void add_apply(CLI::App& app, Action& action) {
   const auto sequence = std::make_shared<SequenceOptions>();
   CLI::App* command = app.add_subcommand("apply", "add the flare of a lens to a photograph");
   add_lens_argument(*command, options->lens);
-  command->add_option("IN", options->input, "the photograph: a scene-linear EXR, or a PNG")->option_text(" ");
+  command->add_option("IN", options->input, "the photograph: a scene-linear EXR, a PNG, DPX, TIFF, JPEG or HDR")
+      ->option_text(" ");
   add_picture_choice(*command, options->read);
-  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the photograph with flare")->required();
+  add_plate_colour(*command, options->colour, PlateUse::ReadAndWrite);
+  add_output(*command, "-o,--output", options->output,
+             {".exr", ".png", ".dpx", ".tif", ".tiff", ".jpg", ".jpeg", ".hdr"}, "the photograph with flare")
+      ->required();
   add_output(*command, "--flare-only", options->flare_only, {".exr"}, "the flare alone");
   add_output(
       *command, "--detected", options->detected, {".exr", ".png"},

@@ -7,6 +7,7 @@
 
 #include "cli/apply_report.h"
 #include "cli/flare_report.h"
+#include "cli/options.h"
 #include "contrejour/expert/apply_files.h"
 #include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/preview_exposure.h"
@@ -32,7 +33,11 @@ Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const 
 }
 
 Result<void> write_result(const PlannedPhotograph& planned, const Context& context) {
-  const auto& [options, lens, outputs, files, picture, plan] = planned;
+  const auto& [options, lens, outputs, files, picture, plan, source] = planned;
+  const std::string ending = lower_extension(options.output);
+  const bool is_usual =
+      source == nullptr && options.colour.output_space.empty() && (ending == ".exr" || ending == ".png");
+  if (!is_usual) return write_plate(*files.output, picture, source, options.colour, context);
   return plan.lights.empty() ? copy_photograph(*files.output, options.input, picture, options.values, context)
                              : contrejour::write_photograph(*files.output, picture, options.values, context);
 }
@@ -49,14 +54,14 @@ Result<PictureFlare> flare_of(PlannedPhotograph& planned, SourceRenderer& render
 }  // namespace
 
 Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens) {
-  auto picture = read_picture(options.input, options.read);
-  if (!picture) return tl::unexpected(picture.error());
-  return plan_photograph(options, std::move(lens), std::move(*picture));
+  auto plate = read_plate(options.input, options.read, options.colour);
+  if (!plate) return tl::unexpected(plate.error());
+  return plan_photograph(options, std::move(lens), std::move(*plate));
 }
 
 Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens,
-                                          Picture picture) {
-  PlannedPhotograph planned{options, std::move(lens), {}, {}, std::move(picture), {}};
+                                          Plate plate) {
+  PlannedPhotograph planned{options, std::move(lens), {}, {}, std::move(plate.picture), {}, std::move(plate.source)};
   auto files = open_apply_files(options, planned.outputs);
   if (!files) return tl::unexpected(files.error());
   planned.files = *files;
@@ -78,7 +83,7 @@ Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRe
 
 // The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
 Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) {
-  auto& [options, lens, outputs, files, picture, plan] = flared.planned;
+  auto& [options, lens, outputs, files, picture, plan, source] = flared.planned;
   const Image& flare = flared.flare.image;
   Result<void> ok;
   if (files.detected) ok = write_detected(*files.detected, picture, plan, context);
@@ -92,7 +97,7 @@ Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) 
 }
 
 Json frame_json(const FlaredPhotograph& flared) {
-  const auto& [options, lens, outputs, files, picture, plan] = flared.planned;
+  const auto& [options, lens, outputs, files, picture, plan, source] = flared.planned;
   Json json = {{"lens", lens->name}, {"input", options.input}, {"output", options.output}};
   json.update(report_json(plan));
   json["flare"] = visibility_json(flared.flare.visibility);

@@ -13,6 +13,7 @@
 #include "cli/source_renderer.h"
 #include "contrejour/apply.h"
 #include "contrejour/context.h"
+#include "contrejour/expert/plate.h"
 
 namespace contrejour::cli {
 
@@ -20,6 +21,7 @@ struct ApplyOptions {
   std::string lens, input, output, flare_only, detected, preview, lights;
   bool json = false;
   ReadOptions read;
+  PlateColour colour;
   PresetOptions preset;
   params::Values values;
 
@@ -38,6 +40,7 @@ struct PlannedPhotograph {
   ApplyFiles files;
   Picture picture;
   FlarePlan plan;
+  std::shared_ptr<const PlateSource> source = nullptr;  // of the picture, for writing it back
 };
 
 struct FlaredPhotograph {
@@ -50,7 +53,7 @@ struct FlaredPhotograph {
                                                         std::shared_ptr<const LensState> lens);
 // The same for a picture in memory instead of the input's.
 [[nodiscard]] Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options,
-                                                        std::shared_ptr<const LensState> lens, Picture picture);
+                                                        std::shared_ptr<const LensState> lens, Plate plate);
 
 // The plan's warnings then include those of lights beyond a measured flare's angles.
 [[nodiscard]] Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,

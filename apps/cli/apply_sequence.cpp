@@ -29,6 +29,10 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
 FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
   SettingsRecord settings = settings_record("apply", own.lens, own.values);
   settings.text += fmt::format("layer = {}\npart = {}\n", own.read.layer, own.read.part);
+  const PlateColour& colour = own.colour;
+  if (!colour.input_space.empty() || !colour.output_space.empty())
+    settings.text +=
+        fmt::format("spaces = {} -> {} of {}\n", colour.input_space, colour.output_space, colour_config(colour));
   return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 
@@ -43,10 +47,10 @@ class FrameReader {
     if (!own) return tl::unexpected(own.error());
     auto lens = lens_.at(own->values);
     if (!lens) return tl::unexpected(lens.error());
-    auto picture = sequence_.missing.contains(frame) ? black_picture() : read_picture(own->input, own->read);
-    if (!picture) return tl::unexpected(picture.error());
-    if (auto fits = check_size(*picture, frame, own->input); !fits) return tl::unexpected(fits.error());
-    return plan_photograph(*own, std::move(*lens), std::move(*picture));
+    auto plate = sequence_.missing.contains(frame) ? black_picture() : read_plate(own->input, own->read, own->colour);
+    if (!plate) return tl::unexpected(plate.error());
+    if (auto fits = check_size(plate->picture, frame, own->input); !fits) return tl::unexpected(fits.error());
+    return plan_photograph(*own, std::move(*lens), std::move(*plate));
   }
 
  private:
@@ -56,16 +60,17 @@ class FrameReader {
   };
 
   // Black in the size and form of the first frame that exists.
-  [[nodiscard]] Result<Picture> black_picture() {
+  [[nodiscard]] Result<Plate> black_picture() {
     if (!black_) {
       const auto present = std::find_if(sequence_.frames.begin(), sequence_.frames.end(),
                                         [&](int frame) { return !sequence_.missing.contains(frame); });
       const auto own = options_of_frame(options_, values_, *present);
       if (!own) return tl::unexpected(own.error());
-      auto picture = read_picture(own->input, own->read);
-      if (!picture) return picture;
-      std::fill(picture->rgb.pixels.begin(), picture->rgb.pixels.end(), 0.0F);
-      black_ = std::move(*picture);
+      auto plate = read_plate(own->input, own->read, own->colour);
+      if (!plate) return plate;
+      Pixels& pixels = plate->picture.rgb.pixels;
+      std::fill(pixels.begin(), pixels.end(), 0.0F);
+      black_ = std::move(*plate);
     }
     return *black_;
   }
@@ -86,7 +91,7 @@ class FrameReader {
   FrameLens& lens_;
   const SequenceFrames& sequence_;
   std::optional<FirstFrame> first_;
-  std::optional<Picture> black_;
+  std::optional<Plate> black_;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/line_chart.h"
+#include "cli/markup.h"
 #include "cli/printable.h"
 #include "contrejour/expert/metrics.h"
 #include "contrejour/expert/settings.h"
@@ -39,19 +40,7 @@ svg { max-width: 100%; height: auto; }
 <body>
 )";
 
-std::string html_text(const std::string& words) {
-  std::string out;
-  for (const char c : printable(words, Lines::Keep)) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
+std::string page_text(const std::string& words) { return markup_text(printable(words, Lines::Keep)); }
 
 // RFC 4648.
 std::string base64(std::span<const std::byte> bytes) {
@@ -216,9 +205,9 @@ Result<std::string> fit_report(const FitOutcome& outcome, const std::optional<Fi
   const auto pictures = pictures_html(outcome.fit);
   if (!pictures) return tl::unexpected(pictures.error());
   std::string html = kReportHead;
-  html += "<h1>" + html_text(outcome.name) + ": a flare learned from photographs</h1>\n<pre>" +
-          html_text(fit_text(outcome)) + "</pre>\n";
-  for (const std::string& warning : outcome.fit.warnings) html += "<p>Warning: " + html_text(warning) + "</p>\n";
+  html += "<h1>" + page_text(outcome.name) + ": a flare learned from photographs</h1>\n<pre>" +
+          page_text(fit_text(outcome)) + "</pre>\n";
+  for (const std::string& warning : outcome.fit.warnings) html += "<p>Warning: " + page_text(warning) + "</p>\n";
   html += *pictures + charts_html(outcome.fit);
   if (comparison) html += comparison_html(*comparison);
   return html + "</body>\n</html>\n";

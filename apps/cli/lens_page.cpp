@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/markup.h"
+
 namespace contrejour::cli {
 namespace {
 
@@ -60,20 +62,6 @@ order.addEventListener("change", show);
 </html>
 )";
 
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string lower(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -99,7 +87,7 @@ std::string card_html(const LensCard& card, std::size_t index) {
       "<div class=\"card\" data-index=\"{}\" data-focal=\"{:.6g}\" data-fnumber=\"{:.6g}\" data-ghosts=\"{}\" "
       "data-flare=\"{:.6g}\" data-words=\"{}\">\n",
       index, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
-      html_text(lower(card.id + " " + card.name + " " + card.source)));
+      markup_text(lower(card.id + " " + card.name + " " + card.source)));
   html += "<img alt=\"flare\" src=\"data:image/png;base64," + base64(card.picture) + "\">\n";
   // The section is embedded as a picture, so that names of parts within its SVG do not collide with the page's.
   html += "<img class=\"section\" alt=\"section\" src=\"data:image/svg+xml;base64," +
@@ -107,8 +95,8 @@ std::string card_html(const LensCard& card, std::size_t index) {
   html += fmt::format(
       "<h2>{}</h2>\n<p>{} mm f/{:.3g}, {} surfaces, {} ghosts; flare {:.2g} of the light, shown {:+.1f} "
       "stops<br>{}<br>{}</p>\n</div>\n",
-      html_text(card.name), html_text(card.focal_lengths), card.f_number, card.surfaces, card.ghosts, card.flare,
-      card.exposure_stops, html_text(card.id), html_text(card.source));
+      markup_text(card.name), markup_text(card.focal_lengths), card.f_number, card.surfaces, card.ghosts, card.flare,
+      card.exposure_stops, markup_text(card.id), markup_text(card.source));
   return html;
 }
 
@@ -122,7 +110,7 @@ std::string lens_page(const std::vector<LensCard>& cards, const std::vector<Refu
   if (!refused.empty()) {
     html += fmt::format("<h1>{} refused</h1>\n<ul>\n", refused.size());
     for (const RefusedLens& lens : refused)
-      html += fmt::format("<li>{}: {}</li>\n", html_text(lens.id), html_text(lens.reason));
+      html += fmt::format("<li>{}: {}</li>\n", markup_text(lens.id), markup_text(lens.reason));
     html += "</ul>\n";
   }
   return html + kScript;

@@ -35,6 +35,7 @@ struct TrackOptions {
   std::string input, output;
   bool json = false;
   ReadOptions read;
+  PlateColour colour;
   SequenceOptions sequence;
   params::Values values;
   TrackingSettings tracking;
@@ -68,7 +69,9 @@ class ShotDetection {
   [[nodiscard]] Result<Picture> read(int frame) const {
     const auto name = name_of_frame(options_.input, frame);
     if (!name) return tl::unexpected(name.error());
-    return read_picture(*name, options_.read);
+    auto plate = read_plate(*name, options_.read, options_.colour);
+    if (!plate) return tl::unexpected(plate.error());
+    return std::move(plate->picture);
   }
 
   [[nodiscard]] Result<Detection> detect(const Picture& picture, std::optional<double> threshold) const {
@@ -234,6 +237,7 @@ void add_lights_track(CLI::App& lights, Action& action) {
   CLI::App* command = lights.add_subcommand("track", "the lights of a sequence, followed from frame to frame");
   command->add_option("IN", options->input, "the sequence, e.g. plate.####.exr")->required()->option_text(" ");
   add_picture_choice(*command, options->read);
+  add_plate_colour(*command, options->colour, PlateUse::Read);
   add_output(*command, "-o,--output", options->output, {".toml"}, "the lights, with keys by frame")->required();
   command->add_flag("--json", options->json, "print the report as JSON");
   add_frame_options(*command, options->sequence, SequenceInput::Files);

@@ -21,6 +21,7 @@
 #include "cli/options.h"
 #include "cli/station_file.h"
 #include "contrejour/expert/flare_prediction.h"
+#include "contrejour/expert/metrics.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/sweep.h"
 #include "contrejour/image_io.h"

@@ -114,6 +114,28 @@ void add_picture_choice(CLI::App& command, ReadOptions& read) {
       ->option_text("NAME|N");
 }
 
+void add_plate_colour(CLI::App& command, PlateColour& colour, PlateUse use) {
+  constexpr const char* kGroup = "Colour spaces";
+  command
+      .add_option("--input-space", colour.input_space,
+                  "the colour space of the picture's values, by its name in the OpenColorIO configuration "
+                  "(default: linear for floats, sRGB for integers)")
+      ->option_text("NAME")
+      ->group(kGroup);
+  if (use == PlateUse::ReadAndWrite)
+    command
+        .add_option("--output-space", colour.output_space,
+                    "the colour space to write (default: the input's in the same format)")
+        ->option_text("NAME")
+        ->group(kGroup);
+  command
+      .add_option("--ocio-config", colour.config,
+                  "the OpenColorIO configuration (default: $OCIO, or the ACES spaces and camera logs that "
+                  "OpenColorIO has)")
+      ->option_text("FILE")
+      ->group(kGroup);
+}
+
 CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number, int min, int max,
                         const std::string& help) {
   return command.add_option(flag, number, fmt::format("{} (default: {})", help, number))

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/plate.h"
 #include "contrejour/image_io.h"
 
 namespace contrejour::cli {
@@ -47,6 +48,10 @@ CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number,
 
 // Adds --layer and --part, which choose the picture to read from an EXR file.
 void add_picture_choice(CLI::App& command, ReadOptions& read);
+
+// Adds --input-space and --ocio-config, and --output-space to a command that writes the picture.
+enum class PlateUse { Read, ReadAndWrite };
+void add_plate_colour(CLI::App& command, PlateColour& colour, PlateUse use);
 
 [[nodiscard]] std::string lower_extension(const std::string& file);
 

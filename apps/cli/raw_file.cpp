@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/options.h"
-#include "contrejour/image_io.h"
+#include "contrejour/expert/plate.h"
 
 #if defined(CONTREJOUR_LIBRAW)
 #include <libraw/libraw.h>
@@ -36,17 +36,19 @@ double sample_at(const PictureChannel& channel, std::size_t k) {
 }
 
 Result<RawFrame> frame_of_picture(const std::string& file, const MosaicFormat& format, double time_s) {
-  const auto picture = read_picture(file);
-  if (!picture) return tl::unexpected(picture.error());
+  const auto plate = read_plate(file, {});
+  if (!plate) return tl::unexpected(plate.error());
+  const Picture* const picture = &plate->picture;
   const auto& channels = picture->channels;
   const bool has_type =
       channels.size() == 1 && (channels[0].type == SampleType::UInt16 || channels[0].type == SampleType::UInt32 ||
                                channels[0].type == SampleType::Float);
   if (!has_type) {
-    return raw_failure(ErrorCode::Unsupported,
-                       "this is not a mosaic: give a grey PNG of 16 bits, or an EXR with one channel of floats or "
-                       "unsigned integers, whose values are those of the sensor",
-                       file);
+    return raw_failure(
+        ErrorCode::Unsupported,
+        "this is not a mosaic: give a grey PNG or TIFF of 16 bits, or an EXR with one channel of floats or "
+        "unsigned integers, whose values are those of the sensor",
+        file);
   }
   RawFrame frame{picture->rgb.width,
                  picture->rgb.height,
@@ -154,13 +156,14 @@ bool reads_raw_files() {
 
 Result<RawFrame> read_raw_frame(const std::string& file, const MosaicFormat& format, double time_s) {
   const std::string ending = lower_extension(file);
-  if (ending == ".png" || ending == ".exr") return frame_of_picture(file, format, time_s);
+  if (ending == ".png" || ending == ".exr" || ending == ".tif" || ending == ".tiff")
+    return frame_of_picture(file, format, time_s);
 #if defined(CONTREJOUR_LIBRAW)
   return frame_of_raw(file, format, time_s);
 #else
   return raw_failure(ErrorCode::Unsupported,
-                     "this program is built without LibRaw; convert the photograph to a mosaic in a PNG of 16 bits "
-                     "(`unprocessed_raw -T`, then TIFF to PNG), or build with libraw-dev installed",
+                     "this program is built without LibRaw; convert the photograph to a mosaic in a PNG "
+                     "or TIFF of 16 bits (`unprocessed_raw -T`), or build with libraw-dev installed",
                      file);
 #endif
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera's exposure from a file: a mosaic in a PNG of 16 bits or an EXR of one channel, or a maker's RAW file through
-// LibRaw where the program is built with it.
+// A camera's exposure from a file: a mosaic in a PNG or TIFF of 16 bits or an EXR of one channel, or a maker's RAW file
+// through LibRaw where the program is built with it.
 #pragma once
 
 #include <optional>

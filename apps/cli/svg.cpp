@@ -3,27 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/markup.h"
+
 namespace contrejour::cli {
-namespace {
-
-std::string xml_text(const std::string& words) {
-  std::string out;
-  for (const char c : words) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (static_cast<unsigned char>(c) >= 0x20) {  // XML allows no control characters
-      out += c;
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 Svg::Svg(double width, double height) : width_(width), height_(height) {}
 
 void Svg::rectangle(Vec2 corner, Vec2 size, const std::string& style) {
@@ -52,7 +34,7 @@ void Svg::circle(Vec2 centre, double radius, const std::string& style) {
 
 void Svg::text(Vec2 position, const std::string& words, const std::string& style) {
   body_ +=
-      fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", position.x, position.y, style, xml_text(words));
+      fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", position.x, position.y, style, markup_text(words));
 }
 
 void Svg::begin_clip(Vec2 corner, Vec2 size) {

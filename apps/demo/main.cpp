@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A demonstration: the flare of a lens alone, and on a synthetic picture of a night street.
+// A demonstration: the flare of a lens alone, on a synthetic picture of a night street, and on a moving shot of it; and
+// that shot as footage for tests.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -16,6 +18,8 @@
 #include "contrejour/image_io.h"
 #include "contrejour/lens.h"
 #include "contrejour/render.h"
+#include "demo/footage.h"
+#include "demo/moving_shot.h"
 #include "demo/street.h"
 
 namespace contrejour::demo {
@@ -25,6 +29,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLens = "canon-70-200";
 constexpr double kFNumber = 5.6;
+constexpr const char* kShotLens = "heliar";
+constexpr double kShotFNumber = 8.0;
 constexpr int kBlades = 8;
 
 // Prints the name of a step, and at its end how long it took.
@@ -82,6 +88,33 @@ Result<std::size_t> show_applied(const LensState& lens, const params::Values& va
   return applied->plan.lights.size();
 }
 
+Result<LensState> lens_of(const char* name, double f_number) {
+  const auto prescription = find_lens(name);
+  if (!prescription) return tl::unexpected(prescription.error());
+  LensSettings lens_settings;
+  lens_settings.f_number = f_number;
+  lens_settings.iris.blades = kBlades;
+  return configure_lens(*prescription, lens_settings);
+}
+
+// A small shot with few frames, through a lens with few surfaces, so that the demonstration is short.
+Result<MovingShot> show_shot(const fs::path& folder) {
+  const Step step("A moving shot of the street");
+  ShotSettings settings;
+  settings.width = 480;
+  settings.height = 270;
+  settings.frame_count = 24;
+  if (auto ok = write_footage(settings, folder); !ok) return tl::unexpected(ok.error());
+  const auto lens = lens_of(kShotLens, kShotFNumber);
+  if (!lens) return tl::unexpected(lens.error());
+  params::Values values;
+  const std::pair<const char*, std::string> chosen[] = {
+      {"max-lights", "24"}, {"stops", "3"}, {"hfov", fmt::format("{}", settings.hfov_rad / params::kDegree_rad)}};
+  for (const auto& [name, text] : chosen)
+    if (auto ok = values.set(name, text); !ok) return tl::unexpected(ok.error());
+  return flare_footage(settings, *lens, values, folder);
+}
+
 // The street has many lights; the faint ones are merged.
 Result<params::Values> demo_values() {
   params::Values values;
@@ -89,16 +122,16 @@ Result<params::Values> demo_values() {
   return values;
 }
 
-Result<void> run(const fs::path& folder) {
+Result<void> create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return failure(ErrorCode::Io, "the folder cannot be created: " + error.message(), {folder.string()});
-  const auto prescription = find_lens(kLens);
-  if (!prescription) return tl::unexpected(prescription.error());
-  LensSettings lens_settings;
-  lens_settings.f_number = kFNumber;
-  lens_settings.iris.blades = kBlades;
-  const auto lens = configure_lens(*prescription, lens_settings);
+  return {};
+}
+
+Result<void> run(const fs::path& folder) {
+  if (auto ok = create_folder(folder / "shot"); !ok) return ok;
+  const auto lens = lens_of(kLens, kFNumber);
   if (!lens) return tl::unexpected(lens.error());
   fmt::print("{}, {:.0f} mm, f/{:g}\n", lens->name, lens->focal_length_mm, lens->f_number);
 
@@ -113,22 +146,48 @@ Result<void> run(const fs::path& folder) {
   for (const char* name : {"flare", "street", "street-with-flare", "street-flare-only"}) {
     fmt::print("  {}\n", (fs::absolute(folder) / (std::string(name) + ".png")).string());
   }
+  const auto shot = show_shot(folder / "shot");
+  if (!shot) return tl::unexpected(shot.error());
+  fmt::print("{} lights were followed through the shot: {}\nIts frames in order: {}\n", shot->lights,
+             fs::absolute(shot->lights_file).string(), fs::absolute(shot->contact_sheet).string());
   return {};
+}
+
+Result<void> run_footage(const ShotSettings& settings, const fs::path& folder) {
+  if (auto ok = create_folder(folder); !ok) return ok;
+  const Step step("Footage");
+  return write_footage(settings, folder);
+}
+
+void add_footage(CLI::App& app, ShotSettings& settings, std::string& folder) {
+  CLI::App* command = app.add_subcommand("footage", "write only the moving shot of the street, and its true lights");
+  command->add_option("FOLDER", folder, "the folder for plate.####.exr and true-lights.toml")->required();
+  command->add_option("--frames", settings.frame_count, "over which the shot is spread")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--width", settings.width)->check(CLI::Range(16, 8192))->capture_default_str();
+  command->add_option("--height", settings.height)->check(CLI::Range(16, 8192))->capture_default_str();
+  command->add_option("--seed", settings.seed, "of the camera's shake, the noise and the grain")->capture_default_str();
+  command->add_flag("--noise,!--no-noise", settings.noise, "noise and grain (default: on)");
 }
 
 }  // namespace
 }  // namespace contrejour::demo
 
 int main(int argc, char** argv) {
-  CLI::App app("Shows what Contrejour does: pictures of a lens flare, alone and on a night street.", "contrejour-demo");
+  CLI::App app("Shows what Contrejour does: pictures of a lens flare, alone, on a night street, and on a moving shot.",
+               "contrejour-demo");
   std::string folder = "contrejour-demo";
   app.add_option("FOLDER", folder, "the folder for the pictures")->capture_default_str();
+  contrejour::demo::ShotSettings shot;
+  contrejour::demo::add_footage(app, shot, folder);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  const auto done = contrejour::demo::run(folder);
+  const bool is_footage = app.got_subcommand("footage");
+  const auto done = is_footage ? contrejour::demo::run_footage(shot, folder) : contrejour::demo::run(folder);
   if (done) return 0;
   fmt::print(stderr, "contrejour-demo: {}\n", done.error().to_string());
   return 1;

@@ -7,29 +7,11 @@ import tomllib
 import unittest
 
 import exr
+from keys import at_frame
 from program import ProgramTest
 
 WIDTH, HEIGHT = 96, 64
 LENS = ["heliar", "-f", "8", "--error", "0.003"]
-
-
-def at_frame(value, frame):
-    """What a value of the file is at a frame: linear between numbers, the earlier key's text or switch."""
-    if not isinstance(value, dict):
-        return value
-    keys = sorted((int(key), item) for key, item in value.items() if key != "between")
-    before = [key for key in keys if key[0] <= frame]
-    after = [key for key in keys if key[0] > frame]
-    if not before:
-        return keys[0][1]
-    (start, a) = before[-1]
-    if not after or isinstance(a, (bool, str)):
-        return a
-    (end, b) = after[0]
-    t = (frame - start) / (end - start)
-    if isinstance(a, list):
-        return [x + t * (y - x) for x, y in zip(a, b)]
-    return a + t * (b - a)
 
 
 class Lights(ProgramTest):

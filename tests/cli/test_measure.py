@@ -16,6 +16,7 @@ import xml.etree.ElementTree as xml
 import zlib
 
 import exr
+import tiff
 from program import PROGRAM, ProgramTest
 
 FLARE = """name = "disc"
@@ -267,6 +268,13 @@ class Merge(ProgramTest):
         self.assertEqual(picture.attributes["headAngleDegrees"][1], b"-0.5")
         rows = table(self.folder / "out" / "stations.csv")
         self.assertEqual([row["angle_deg"] for row in rows], ["-0.5", "0.5"])
+
+    @unittest.skipUnless((pathlib.Path(PROGRAM).parent / "contrejour-openimageio.so").exists(), "built without OpenImageIO")
+    def test_mosaics_in_tiff(self):
+        self.write_sweep(stations=1, writer=lambda path, width, height, values, *_: tiff.write(path, values, width, height, 1),
+                         ending="tif")
+        self.run_program("measure", "merge", "s.csv", "-o", "out", *self.FORMAT)
+        self.check_rates(exr.Picture(self.folder / "out" / "station-0001.exr"))
 
     def test_an_interrupted_merge_continues(self):
         self.write_sweep()

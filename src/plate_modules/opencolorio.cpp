@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colour spaces by OpenColorIO: between a space of a configuration and scene-linear ACEScg or Rec.709.
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "plate_modules/aces_config.h"
+#include "plates/colour_module.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+namespace ocio = OCIO_NAMESPACE;
+
+constexpr int kMaxListed = 40;
+
+ocio::ConstConfigRcPtr open_config(const std::string& name) {
+  return name.empty() ? aces_config() : ocio::Config::CreateFromFile(name.c_str());
+}
+
+std::string spaces_of(const ocio::Config& config) {
+  std::vector<std::string> names;
+  for (int k = 0; k < std::min(kMaxListed, config.getNumColorSpaces()); ++k)
+    names.emplace_back(config.getColorSpaceNameByIndex(k));
+  const int rest = config.getNumColorSpaces() - static_cast<int>(names.size());
+  return fmt::format("{}{}", fmt::join(names, ", "), rest > 0 ? fmt::format(" and {} others", rest) : "");
+}
+
+// The configuration's name of ACES2065-1, by which its spaces are related to those of other configurations.
+std::optional<std::string> interchange_of(const ocio::Config& config) {
+  for (const char* name : {"aces_interchange", "ACES2065-1", "ACES - ACES2065-1", "lin_ap0"})
+    if (const auto space = config.getColorSpace(name)) return space->getName();
+  return std::nullopt;
+}
+
+// The working space that a scene-linear space is by its name.
+std::optional<ColourSpace> known_linear(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto has = [&](const char* part) { return name.find(part) != std::string::npos; };
+  if (has("acescg") || has("ap1")) return ColourSpace::AcesCg;
+  if (has("709") || has("srgb") || name == "linear") return ColourSpace::Rec709;
+  return std::nullopt;
+}
+
+// From a space to the working space, and which one that is.
+struct ToWorking {
+  ocio::GroupTransformRcPtr transform = ocio::GroupTransform::Create();
+  ColourSpace working = ColourSpace::AcesCg;
+};
+
+Result<ToWorking> to_working(const ocio::Config& config, const std::string& space) {
+  ToWorking to;
+  auto step = ocio::ColorSpaceTransform::Create();
+  step->setSrc(space.c_str());
+  to.transform->appendTransform(step);
+  if (const auto interchange = interchange_of(config)) {
+    step->setDst(interchange->c_str());
+    auto to_acescg = ocio::BuiltinTransform::Create();
+    to_acescg->setStyle("ACEScg_to_ACES2065-1");
+    to_acescg->setDirection(ocio::TRANSFORM_DIR_INVERSE);
+    to.transform->appendTransform(to_acescg);
+    return to;
+  }
+  const auto linear = config.getColorSpace(ocio::ROLE_SCENE_LINEAR);
+  const auto known = linear ? known_linear(linear->getName()) : std::nullopt;
+  if (!known)
+    return failure(ErrorCode::Unsupported,
+                   "the configuration has no role aces_interchange, and its role scene_linear is neither ACEScg nor "
+                   "linear Rec.709; add the role aces_interchange to it");
+  step->setDst(linear->getName());
+  to.working = *known;
+  return to;
+}
+
+Result<ColourConversion> open(const ColourRequest& request) {
+  ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
+  constexpr const char* kBuiltIn = "ocio://";
+  if (request.config.starts_with(kBuiltIn) && OCIO_VERSION_HEX < 0x02020000)
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("OpenColorIO {} has no built-in configurations; leave --ocio-config and $OCIO out for "
+                               "the ACES spaces and camera logs that it has, or give a file",
+                               ocio::GetVersion()),
+                   {request.config});
+  const auto config = open_config(request.config);
+  const auto space = config->getColorSpace(request.space.c_str());
+  if (!space)
+    return failure(ErrorCode::InvalidArgument, fmt::format("there is no colour space \"{}\"; the configuration has {}",
+                                                           request.space, spaces_of(*config)));
+  auto to = to_working(*config, space->getName());
+  if (!to) return tl::unexpected(to.error());
+  const auto direction = request.to_working ? ocio::TRANSFORM_DIR_FORWARD : ocio::TRANSFORM_DIR_INVERSE;
+  const auto processor = config->getProcessor(to->transform, direction);
+  // Without the approximations of logarithms and powers, which cost codes.
+  const ocio::ConstCPUProcessorRcPtr cpu = processor->getOptimizedCPUProcessor(ocio::OPTIMIZATION_LOSSLESS);
+  return ColourConversion{to->working, std::make_shared<const ocio::ConstCPUProcessorRcPtr>(cpu)};
+}
+
+Result<void> apply(const ColourConversion& conversion, float* rgb, std::size_t pixels) {
+  const auto& cpu = *static_cast<const ocio::ConstCPUProcessorRcPtr*>(conversion.transform.get());
+  ocio::PackedImageDesc image(rgb, static_cast<long>(pixels), 1, 3);
+  cpu->apply(image);
+  return {};
+}
+
+template <class Call>
+auto guarded(const std::string& config, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    return failure(ErrorCode::Parse, fmt::format("OpenColorIO: {}", error.what()), {config});
+  }
+}
+
+}  // namespace
+
+extern "C" CONTREJOUR_API const ColourModule* contrejour_colour_module() {
+  static const ColourModule module{
+      kColourModuleVersion,
+      [](const ColourRequest& request) { return guarded(request.config, [&] { return open(request); }); },
+      [](const ColourConversion& conversion, float* rgb, std::size_t pixels) {
+        return guarded("", [&] { return apply(conversion, rgb, pixels); });
+      }};
+  return &module;
+}
+
+}  // namespace contrejour::inline internal
