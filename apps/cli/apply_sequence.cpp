@@ -12,6 +12,7 @@
 #include "cli/long_task.h"
 #include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/run_frames.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {
@@ -22,6 +23,8 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
   if (auto ok = number_names(frame, {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}); !ok)
     return tl::unexpected(ok.error());
   own.preset.save.clear();
+  own.layers.light_names = values.light_names(frame);
+  own.layers.off_names = values.off_names(frame);
   return own;
 }
 
@@ -29,6 +32,7 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
 FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
   SettingsRecord settings = settings_record("apply", own.lens, own.values);
   settings.text += fmt::format("layer = {}\npart = {}\n", own.read.layer, own.read.part);
+  settings.text += layers_text(own.layers);
   return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 
@@ -89,10 +93,24 @@ class FrameReader {
   std::optional<Picture> black_;
 };
 
+// The same with the ghosts that have layers of their own in all frames: the brightest ones of the first frame.
+Result<ApplyOptions> with_same_layers(ApplyOptions options, const FrameValues& values, FrameLens& lens,
+                                      const SequenceFrames& sequence) {
+  if (!chooses_ghosts(options.layers)) return options;
+  const auto first = FrameReader(options, values, lens, sequence).read(sequence.frames.front());
+  if (!first) return tl::unexpected(first.error());
+  const FlarePlan& plan = first->plan;
+  const FrameSettings settings = params::frame_settings(first->options.values, plan.grid.frame, plan.space);
+  if (auto ok = choose_ghosts(options.layers, *first->lens, plan.lights, first->options.values, settings); !ok)
+    return tl::unexpected(ok.error());
+  return options;
+}
+
 }  // namespace
 
-Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& values,
+Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& values,
                               const SequenceOptions& sequence_options) {
+  ApplyOptions options = given;
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
   auto sequence = frames_of_sequence(sequence_options, options.input);
   if (!sequence) return tl::unexpected(sequence.error());
@@ -100,6 +118,10 @@ Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& va
   if (!lens) return tl::unexpected(lens.error());
   auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
   if (!renderer) return tl::unexpected(renderer.error());
+  if (auto same = with_same_layers(options, values, *lens, *sequence); same)
+    options = std::move(*same);
+  else
+    return tl::unexpected(same.error());
   if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   const auto is_missing = [&](int frame) { return sequence->missing.contains(frame); };
