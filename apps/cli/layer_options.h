@@ -41,7 +41,7 @@ void add_layer_options(CLI::App& command, LayerChoice& layers);
 [[nodiscard]] Result<void> choose_ghosts(LayerChoice& layers, const LensState& lens, std::vector<Light> lights,
                                          const params::Values& values, const FrameSettings& settings);
 
-// What the choice contributes to a frame's record.
+// The choice as text, for a frame's record.
 [[nodiscard]] std::string layers_text(const LayerChoice& layers);
 
 // The renderer of a lens. Errors: a measured flare, which has no layers.

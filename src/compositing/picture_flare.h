@@ -7,7 +7,7 @@
 
 namespace contrejour::inline internal {
 
-// Of the frame that is rendered for a plan.
+// The settings of the frame that is rendered for a plan.
 [[nodiscard]] FrameSettings settings_of(const FlarePlan& plan, const params::Values& values);
 
 [[nodiscard]] PictureFlare flare_without_lights(const FlarePlan& plan);

@@ -50,6 +50,9 @@ class Layers(ProgramTest):
             worst = max(abs(a - b) for a, b in zip(plain.channels["G"], layered.channels["G"]))
             self.assertLessEqual(worst, 1e-6 * peak)
         self.assertIn("surface_5", names)
+        for other in (["--pixel-aspect", "2"], ["--method", "tiled", "--grid", "16"], ["--light-size", "2"]):
+            self.run_program("render", *LENS, *other, "-o", "f.exr", "--layers", "ghost", "--layer-count", "3")
+            self.assertEqual(len(self.layers_of("f.exr")), 4)
 
     def test_named_lights_over_frames(self):
         (self.folder / "lights.toml").write_text(LIGHTS)

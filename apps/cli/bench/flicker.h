@@ -15,7 +15,7 @@
 
 namespace contrejour::cli {
 
-// What is added to a point light behind a clean lens without diffraction.
+// Effects that are added to a point light behind a clean lens without diffraction.
 struct FlickerCase {
   const char* name;
   bool ringing = false, size = false, dirt = false;

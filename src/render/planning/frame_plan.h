@@ -96,7 +96,7 @@ struct DrawnImage {
   int left = 0, top = 0;
 };
 
-// What a method draws.
+// The result of a method's drawing.
 struct DrawnFlare {
   DrawnImage picture;  // without the plan's layers
   std::vector<DrawnImage> layers;  // one for each of the plan's layers; without pixels where it is dark
