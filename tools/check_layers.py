@@ -94,6 +94,8 @@ PUBLIC = {
     "expert/merge_stations.h": "measure",
     "expert/flare_prediction.h": "measure",
     "expert/flare_source.h": "measure",
+    "expert/flare_layers.h": "render/planning",
+    "expert/picture_layers.h": "compositing",
     "expert/ghost_outline.h": "measure",
     "expert/animation.h": "sequence",
     "expert/frame_pattern.h": "sequence",

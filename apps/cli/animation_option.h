@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -28,6 +29,12 @@ class FrameValues {
   [[nodiscard]] params::Values of_still() const;
   // Whether the file has lights, on or off; then there is none by default.
   [[nodiscard]] bool have_lights() const { return animation_ && !animation_->lights.empty(); }
+  // The names of the lights of at(frame), in the order in which they become lights; empty for those of the command
+  // line.
+  [[nodiscard]] std::vector<std::string> light_names(int frame) const;
+  // The names of the file's lights that are off in a frame.
+  [[nodiscard]] std::vector<std::string> off_names(int frame) const;
+  [[nodiscard]] int still_frame() const;  // that of_still() is of
   [[nodiscard]] bool may_change_lens() const { return animation_ && !animation_->parameters.empty(); }
 
  private:

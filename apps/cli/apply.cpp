@@ -38,7 +38,8 @@ constexpr const char* kApplyExamples =
     "  contrejour apply heliar comp.exr -o out.exr --layer beauty\n"
     "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume\n"
     "  contrejour apply heliar plate.####.dpx -o out.####.dpx --input-space logc3\n"
-    "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml";
+    "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml\n"
+    "  contrejour apply heliar plate.exr -o out.exr --flare-only flare.exr --layers light";
 
 Result<int> apply_to_still(const ApplyOptions& options) {
   const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
@@ -66,6 +67,8 @@ Result<int> apply_to_still(const ApplyOptions& options) {
 }
 
 Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
+  if (auto ok = check_layer_options(options.layers, options.flare_only, "--flare-only"); !ok)
+    return tl::unexpected(ok.error());
   const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
@@ -74,6 +77,8 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
   if (is_sequence(options.input) || !sequence.frames.empty()) return apply_to_sequence(options, *values, sequence);
   if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());
   options.values = values->of_still();
+  options.layers.light_names = values->light_names(values->still_frame());
+  options.layers.off_names = values->off_names(values->still_frame());
   return apply_to_still(options);
 }
 
@@ -106,6 +111,7 @@ void add_apply(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "print the report on the detected lights as JSON");
   add_sequence_options(*command, *sequence, SequenceInput::Files);
   add_preset_options(*command, options->preset);
+  add_layer_options(*command, options->layers);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"detect", "region", "threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape",

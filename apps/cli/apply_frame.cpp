@@ -51,6 +51,25 @@ Result<PictureFlare> flare_of(PlannedPhotograph& planned, SourceRenderer& render
   return render_flare(plan, planned.picture.rgb, measured, context);
 }
 
+Result<FlaredPhotograph> render_in_layers(PlannedPhotograph&& planned, SourceRenderer& renderer,
+                                          const Context& context) {
+  const auto of_lens = renderer_of_layers(renderer);
+  if (!of_lens) return tl::unexpected(of_lens.error());
+  const FlarePlan& plan = planned.plan;
+  const auto options = layer_options(planned.options.layers, plan.lights.size() - plan.given_light_count);
+  if (!options) return tl::unexpected(options.error());
+  auto layered = render_flare_layers(plan, planned.picture.rgb, planned.options.values, **of_lens, *options, context);
+  if (!layered) return tl::unexpected(layered.error());
+  return FlaredPhotograph{std::move(planned), std::move(layered->flare), std::move(layered->layers)};
+}
+
+Result<void> write_flare(const FlaredPhotograph& flared, const Context& context) {
+  const auto& [options, lens, outputs, files, picture, plan] = flared.planned;
+  Picture alone = aligned_picture(flared.flare.image, picture, plan);
+  if (options.layers.on()) add_layers(alone, flared.layers, options.layers);
+  return write_picture(*files.flare_only, alone, context);
+}
+
 }  // namespace
 
 Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens) {
@@ -76,6 +95,7 @@ Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shar
 
 Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                            const Context& context) {
+  if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
   auto flare = flare_of(planned, renderer, context);
   if (!flare) return tl::unexpected(flare.error());
   return FlaredPhotograph{std::move(planned), std::move(*flare)};
@@ -90,7 +110,7 @@ Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) 
   if (!ok) return ok;
   add_flare(picture.rgb, flare);
   ok = write_result(flared.planned, context);
-  if (ok && files.flare_only) ok = write_aligned(*files.flare_only, flare, picture, plan, context);
+  if (ok && files.flare_only) ok = write_flare(flared, context);
   if (ok && files.preset) ok = files.preset->write(params::write_preset({{}, {}, options.lens, options.values}));
   if (ok && files.preview) ok = write_preview(options, *files.preview, picture.rgb, context);
   return ok ? outputs.commit() : ok;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
 #include "cli/source_renderer.h"
@@ -23,6 +24,7 @@ struct ApplyOptions {
   ReadOptions read;
   PlateColour colour;
   PresetOptions preset;
+  LayerChoice layers;
   params::Values values;
 
   [[nodiscard]] std::vector<std::string> outputs() const { return {output, flare_only, detected, preview}; }
@@ -46,6 +48,7 @@ struct PlannedPhotograph {
 struct FlaredPhotograph {
   PlannedPhotograph planned;
   PictureFlare flare;
+  std::vector<FlareLayer> layers = {};
 };
 
 // Opens all outputs, so that a long rendering does not fail at its end, reads the photograph and plans its flare.

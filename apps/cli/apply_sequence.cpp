@@ -12,6 +12,7 @@
 #include "cli/long_task.h"
 #include "contrejour/expert/frame_record.h"
 #include "contrejour/expert/run_frames.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {
@@ -22,6 +23,8 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
   if (auto ok = number_names(frame, {&own.input, &own.output, &own.flare_only, &own.detected, &own.preview}); !ok)
     return tl::unexpected(ok.error());
   own.preset.save.clear();
+  own.layers.light_names = values.light_names(frame);
+  own.layers.off_names = values.off_names(frame);
   return own;
 }
 
@@ -33,6 +36,7 @@ FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
   if (!colour.input_space.empty() || !colour.output_space.empty())
     settings.text +=
         fmt::format("spaces = {} -> {} of {}\n", colour.input_space, colour.output_space, colour_config(colour));
+  settings.text += layers_text(own.layers);
   return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 
@@ -94,15 +98,33 @@ class FrameReader {
   std::optional<Plate> black_;
 };
 
+// The same with the ghosts that have layers of their own in all frames: the brightest ones of the first frame.
+Result<ApplyOptions> with_same_layers(ApplyOptions options, const FrameValues& values, FrameLens& lens,
+                                      const SequenceFrames& sequence) {
+  if (!chooses_ghosts(options.layers)) return options;
+  const auto first = FrameReader(options, values, lens, sequence).read(sequence.frames.front());
+  if (!first) return tl::unexpected(first.error());
+  const FlarePlan& plan = first->plan;
+  const FrameSettings settings = params::frame_settings(first->options.values, plan.grid.frame, plan.space);
+  if (auto ok = choose_ghosts(options.layers, *first->lens, plan.lights, first->options.values, settings); !ok)
+    return tl::unexpected(ok.error());
+  return options;
+}
+
 }  // namespace
 
-Result<int> apply_to_sequence(const ApplyOptions& options, const FrameValues& values,
+Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& values,
                               const SequenceOptions& sequence_options) {
+  ApplyOptions options = given;
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
   auto sequence = frames_of_sequence(sequence_options, options.input);
   if (!sequence) return tl::unexpected(sequence.error());
   auto lens = FrameLens::create(options.lens, values, sequence->frames.front(), MeasuredUse::Photograph);
   if (!lens) return tl::unexpected(lens.error());
+  if (auto same = with_same_layers(options, values, *lens, *sequence); same)
+    options = std::move(*same);
+  else
+    return tl::unexpected(same.error());
   const auto is_missing = [&](int frame) { return sequence->missing.contains(frame); };
   std::vector<int> frames = sequence->frames;
   if (sequence_options.resume)

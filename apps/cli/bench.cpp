@@ -9,11 +9,12 @@ void add_bench(CLI::App& app, Action& action) {
   bench->require_subcommand(1);
   bench->footer(
       "Examples:\n  contrejour bench tables\n  contrejour bench tables --json tables.json\n"
-      "  contrejour bench effects --threads 2");
+      "  contrejour bench effects --threads 2\n  contrejour bench flicker --frames 40 --systems heliar");
   add_bench_tables(*bench, action);
   add_bench_effects(*bench, action);
   add_bench_lenses(*bench, action);
   add_bench_hullin(*bench, action);
+  add_bench_flicker(*bench, action);
 }
 
 }  // namespace contrejour::cli

@@ -49,7 +49,7 @@ Result<int> run_effects(const EffectsOptions& options) {
 void add_bench_effects(CLI::App& bench, Action& action) {
   const auto options = std::make_shared<EffectsOptions>();
   CLI::App* command = bench.add_subcommand(
-      "effects", "measure starbursts, dirt, extended lights and many lights, compared with their targets");
+      "effects", "measure starbursts, dirt, extended lights, many lights and layers, compared with their targets");
   add_output(*command, "--json", options->json, {".json"}, "write the targets to this file");
   add_number(*command, "--runs", options->runs, 1, 1000, "number of runs, of which the fastest counts");
   add_parameters(*command, options->values, {"size", "threads"});

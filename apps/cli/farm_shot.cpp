@@ -19,6 +19,15 @@ bool is_option(const std::string& word, std::string_view name) {
   return word == name || word.starts_with(fmt::format("{}=", name));
 }
 
+bool gives(const std::vector<std::string>& words, std::string_view option) {
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return is_option(word, option); });
+}
+
+bool has_layers_by_ghost(const std::vector<std::string>& words) {
+  const auto at = std::find(words.begin(), words.end(), "--layers");
+  return gives(words, "--layers=ghost") || (at != words.end() && at + 1 != words.end() && at[1] == "ghost");
+}
+
 }  // namespace
 
 void add_farm_options(CLI::App& command, FarmOptions& options) {
@@ -39,6 +48,11 @@ Result<FarmShot> FarmShot::create(const FarmOptions& options) {
   if (words.front() != "apply" && words.front() != "render")
     return invalid_argument(
         fmt::format("a farm runs `apply` and `render`, not `{}`; give the command after --", words.front()));
+  if (has_layers_by_ghost(words) && !gives(words, "--layer-ghosts"))
+    return invalid_argument(
+        "with --layers ghost, each chunk would choose ghosts of its own; give --layer-ghosts LIST, as the command "
+        "prints "
+        "it on one machine");
   FarmShot shot;
   shot.chunk_ = options.chunk;
   shot.program_ = options.program;
@@ -89,10 +103,7 @@ std::string FarmShot::command_line(const std::string& frames) const {
   return line + fmt::format(" {}={} --resume --keep-going", kFrames, frames);
 }
 
-bool FarmShot::has_threads() const {
-  return std::any_of(arguments_.begin(), arguments_.end(),
-                     [](const std::string& word) { return is_option(word, "--threads"); });
-}
+bool FarmShot::has_threads() const { return gives(arguments_, "--threads"); }
 
 std::string shell_quoted(const std::string& text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+,:@%=";

@@ -31,7 +31,8 @@ constexpr const char* kRenderExamples =
     "  contrejour render heliar --select list:2-5 --method reference -o ghost.exr --stats ghost.json\n"
     "  contrejour render mine.flare.toml --light 12,5:20000 --hfov 60 -o flare.exr\n"
     "  contrejour render --preset old-portrait --blades 7 -o flare.exr --save-preset mine.toml\n"
-    "  contrejour render heliar -o flare.####.exr --frames 1-48 --lights lights.toml";
+    "  contrejour render heliar -o flare.####.exr --frames 1-48 --lights lights.toml\n"
+    "  contrejour render heliar -o flare.exr --starburst --layers part";
 
 Result<int> render_still(const RenderOptions& options) {
   const auto source = open_source(options.lens, options.values, MeasuredUse::Lights);
@@ -57,6 +58,7 @@ Result<int> render_still(const RenderOptions& options) {
 }
 
 Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
+  if (auto ok = check_layer_options(options.layers, options.output, "-o"); !ok) return tl::unexpected(ok.error());
   const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
@@ -68,6 +70,8 @@ Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
     return failure(ErrorCode::InvalidArgument, "a sequence needs its frames: --frames 1-48", {options.output});
   if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());
   options.values = values->of_still();
+  options.layers.light_names = values->light_names(values->still_frame());
+  options.layers.off_names = values->off_names(values->still_frame());
   return render_still(options);
 }
 
@@ -84,6 +88,7 @@ void add_render(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "print a report as JSON; in a sequence, one line for each frame");
   add_sequence_options(*command, *sequence, SequenceInput::None);
   add_preset_options(*command, options->preset);
+  add_layer_options(*command, options->layers);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",

@@ -8,6 +8,7 @@
 #include "cli/flare_report.h"
 #include "cli/options.h"
 #include "cli/source_choice.h"
+#include "contrejour/expert/picture_layers.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/image_io.h"
@@ -33,13 +34,29 @@ Result<std::vector<Light>> lights_of(const RenderOptions& options, const FlareSo
 }
 
 Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& preview, const Context& context) {
-  const auto& [planned, flare] = rendered;
+  const auto& [planned, flare, layers] = rendered;
   if (lower_extension(planned.options.output) == ".png")
     return write_preview_png(*planned.files.output, flare.image, preview, context);
   Picture picture = picture_of(flare.image);
   set_colour_space(picture, planned.settings.colour_space);
   set_pixel_aspect(picture, planned.pixel_aspect);
+  if (planned.options.layers.on()) add_layers(picture, layers, planned.options.layers);
   return write_picture(*planned.files.output, picture, context);
+}
+
+Result<RenderedFrame> render_in_layers(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
+  const auto of_lens = renderer_of_layers(renderer);
+  if (!of_lens) return tl::unexpected(of_lens.error());
+  const auto options = layer_options(planned.options.layers);
+  if (!options) return tl::unexpected(options.error());
+  auto flare = (*of_lens)->render_layers(planned.lights, planned.settings, *options, context);
+  if (!flare) return tl::unexpected(flare.error());
+  auto image = picture_of_flare(std::move(flare->image), planned.grid);
+  if (!image) return tl::unexpected(image.error());
+  auto layers = layers_of_picture(std::move(flare->layers), planned.grid);
+  if (!layers) return tl::unexpected(layers.error());
+  Flare whole{std::move(*image), std::move(flare->statistics)};
+  return RenderedFrame{std::move(planned), std::move(whole), std::move(*layers)};
 }
 
 }  // namespace
@@ -67,6 +84,7 @@ Result<PlannedFrame> plan_frame(const RenderOptions& options, const FlareSource&
 }
 
 Result<RenderedFrame> render_frame(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
+  if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
   auto flare = render(renderer, planned.lights, planned.settings, context);
   if (!flare) return tl::unexpected(flare.error());
   auto image = picture_of_flare(std::move(flare->image), planned.grid);
@@ -76,7 +94,7 @@ Result<RenderedFrame> render_frame(PlannedFrame&& planned, SourceRenderer& rende
 }
 
 Result<void> write_frame(RenderedFrame& rendered, const Context& context) {
-  auto& [planned, flare] = rendered;
+  auto& [planned, flare, layers] = rendered;
   const auto& [options, files] = std::tie(planned.options, planned.files);
   const PreviewSettings preview =
       params::preview_settings(options.values, flare.image, params::DefaultExposure::Automatic);
@@ -88,7 +106,7 @@ Result<void> write_frame(RenderedFrame& rendered, const Context& context) {
 }
 
 Json frame_json(const RenderedFrame& rendered) {
-  const auto& [planned, flare] = rendered;
+  const auto& [planned, flare, layers] = rendered;
   return {{"lens", planned.lens->name},
           {"output", planned.options.output},
           {"lights", planned.lights.size()},
@@ -96,7 +114,7 @@ Json frame_json(const RenderedFrame& rendered) {
 }
 
 std::string frame_text(const RenderedFrame& rendered) {
-  const auto& [planned, flare] = rendered;
+  const auto& [planned, flare, layers] = rendered;
   return fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", planned.options.output, flare.image.width,
                      flare.image.height, flare.statistics.ghosts_rendered, total_ms(flare.statistics) / 1000.0);
 }

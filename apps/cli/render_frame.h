@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
 #include "cli/source_renderer.h"
@@ -21,6 +22,7 @@ struct RenderOptions {
   std::string lens, output, preview, stats, lights;
   bool json = false;
   PresetOptions preset;
+  LayerChoice layers;
   params::Values values;
   bool needs_light = true;  // where the values give no light: the default one, rather than a black frame
 
@@ -47,6 +49,7 @@ struct PlannedFrame {
 struct RenderedFrame {
   PlannedFrame planned;
   Flare flare;
+  std::vector<FlareLayer> layers = {};
 };
 
 // Opens all outputs, so that a long rendering does not fail at its end, and takes the lights and settings from the

@@ -20,6 +20,8 @@ Result<RenderOptions> options_of_frame(const RenderOptions& options, const Frame
   own.values = values.at(frame);
   if (auto ok = number_names(frame, {&own.output, &own.preview, &own.stats}); !ok) return tl::unexpected(ok.error());
   own.preset.save.clear();
+  own.layers.light_names = values.light_names(frame);
+  own.layers.off_names = values.off_names(frame);
   return own;
 }
 
@@ -27,6 +29,7 @@ Result<RenderOptions> options_of_frame(const RenderOptions& options, const Frame
 FrameFiles files_of(const RenderOptions& own) {
   SettingsRecord settings = settings_record("render", own.lens, own.values);
   settings.text += fmt::format("default light = {}\n", own.needs_light);
+  settings.text += layers_text(own.layers);
   return frame_files(std::move(settings), {}, own.outputs());
 }
 
@@ -39,14 +42,31 @@ Result<PlannedFrame> plan_numbered(const RenderOptions& options, const FrameValu
   return plan_frame(*own, lens.first_source(), std::move(*state));
 }
 
+// The same with the ghosts that have layers of their own in all frames: the brightest ones of the first frame, with the
+// default light where it has none.
+Result<RenderOptions> with_same_layers(RenderOptions options, const FrameValues& values, const FrameLens& lens,
+                                       int first_frame) {
+  if (!chooses_ghosts(options.layers)) return options;
+  const auto first = plan_numbered(options, values, lens, first_frame);
+  if (!first) return tl::unexpected(first.error());
+  if (auto ok = choose_ghosts(options.layers, *first->lens, first->lights, first->options.values, first->settings); !ok)
+    return tl::unexpected(ok.error());
+  return options;
+}
+
 }  // namespace
 
-Result<int> render_sequence(const RenderOptions& options, const FrameValues& values, const SequenceOptions& sequence) {
+Result<int> render_sequence(const RenderOptions& given, const FrameValues& values, const SequenceOptions& sequence) {
+  RenderOptions options = given;
   if (auto ok = check_sequence_outputs(options.outputs()); !ok) return tl::unexpected(ok.error());
   auto frames = parse_frame_range(sequence.frames);
   if (!frames) return tl::unexpected(frames.error());
   auto lens = FrameLens::create(options.lens, values, frames->front(), MeasuredUse::Lights);
   if (!lens) return tl::unexpected(lens.error());
+  if (auto same = with_same_layers(options, values, *lens, frames->front()); same)
+    options = std::move(*same);
+  else
+    return tl::unexpected(same.error());
   const int first = frames->front();
   if (sequence.resume)
     leave_out_done(*frames, [&](int frame) {

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "contrejour/context.h"
+#include "contrejour/expert/flare_layers.h"
 #include "contrejour/export.h"
 #include "contrejour/frame_settings.h"
 #include "contrejour/image_view.h"
@@ -49,6 +50,10 @@ class CONTREJOUR_API Renderer {
                                                 const FrameTarget& target, const Context& context = {});
   [[nodiscard]] Result<Flare> render(std::span<const Light> lights, const FrameSettings& settings,
                                      const Context& context = {});
+
+  // The frame in layers, equal to those of the function of this name.
+  [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,
+                                                   const LayerOptions& options, const Context& context = {});
 
  private:
   struct State;

@@ -10,19 +10,15 @@
 #include "contrejour/expert/settings.h"
 
 namespace contrejour {
-namespace {
 
-Result<Flare> render_on_grid(const FlarePlan& plan, const params::Values& values, Renderer& renderer,
-                             const Context& context) {
+inline namespace internal {
+
+FrameSettings settings_of(const FlarePlan& plan, const params::Values& values) {
   FrameSettings settings = params::frame_settings(values, plan.grid.frame, plan.space);
   settings.starburst.left_out = plan.light_matte;
   settings.starburst.lights = plan.imaged_lights;
-  return renderer.render(plan.lights, settings, context);
+  return settings;
 }
-
-}  // namespace
-
-inline namespace internal {
 
 PictureFlare flare_without_lights(const FlarePlan& plan) {
   PictureFlare flare;
@@ -45,7 +41,7 @@ Result<PictureFlare> on_picture(Flare frame, const FlarePlan& plan, const Image&
 Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const params::Values& values,
                                   Renderer& renderer, const Context& context) {
   if (plan.lights.empty()) return flare_without_lights(plan);
-  auto rendered = render_on_grid(plan, values, renderer, context);
+  auto rendered = renderer.render(plan.lights, settings_of(plan, values), context);
   if (!rendered) return tl::unexpected(rendered.error());
   return on_picture(std::move(*rendered), plan, rgb);
 }

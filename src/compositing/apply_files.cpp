@@ -60,14 +60,18 @@ Result<void> copy_photograph(OutputFile& file, const std::filesystem::path& inpu
   return copy_bytes(file, input);
 }
 
-Result<void> write_aligned(OutputFile& file, const Image& image, const Picture& picture, const FlarePlan& plan,
-                           const Context& context) {
+Picture aligned_picture(const Image& image, const Picture& picture, const FlarePlan& plan) {
   Picture alone = picture_of(image);
   alone.data_window = picture.data_window;
   alone.display_window = picture.display_window;
   set_colour_space(alone, plan.space);
   set_pixel_aspect(alone, plan.pixel_aspect);
-  return write_picture(file, alone, context);
+  return alone;
+}
+
+Result<void> write_aligned(OutputFile& file, const Image& image, const Picture& picture, const FlarePlan& plan,
+                           const Context& context) {
+  return write_picture(file, aligned_picture(image, picture, plan), context);
 }
 
 Result<void> write_detected(OutputFile& file, const Picture& picture, const FlarePlan& plan, const Context& context) {

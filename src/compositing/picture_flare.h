@@ -7,6 +7,9 @@
 
 namespace contrejour::inline internal {
 
+// The settings of the frame that is rendered for a plan.
+[[nodiscard]] FrameSettings settings_of(const FlarePlan& plan, const params::Values& values);
+
 [[nodiscard]] PictureFlare flare_without_lights(const FlarePlan& plan);
 
 // Errors: those of picture_of_flare().

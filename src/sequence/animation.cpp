@@ -66,6 +66,8 @@ std::string parameter_text(const Parameter& parameter, const KeyedValue& value, 
   return text_at(value, frame);
 }
 
+bool is_on(const AnimatedLight& light, double frame) { return !light.on || text_at(*light.on, frame) != "off"; }
+
 std::vector<const KeyedValue*> all_values(const Animation& animation) {
   std::vector<const KeyedValue*> all;
   for (const auto& [name, value] : animation.parameters) all.push_back(&value);
@@ -87,10 +89,17 @@ params::Values parameters_at(const Animation& animation, double frame) {
   return values;
 }
 
+std::vector<std::string> names_of_lights_at(const Animation& animation, double frame, bool by_direction) {
+  std::vector<std::string> names;
+  for (const AnimatedLight& light : animation.lights)
+    if (light.by_direction == by_direction && is_on(light, frame)) names.push_back(light.name);
+  return names;
+}
+
 void add_lights_at(const Animation& animation, double frame, params::Values& values, Shutter shutter) {
   const std::vector<double> times = exposure_times(frame, shutter);
   for (const AnimatedLight& light : animation.lights) {
-    if (light.on && text_at(*light.on, frame) == "off") continue;
+    if (!is_on(light, frame)) continue;
     static_cast<void>(values.set(light.by_direction ? "light" : "light-at", light_text(light, times)));
   }
 }

@@ -62,6 +62,7 @@ class Farm(ProgramTest):
         subprocess.run(["sh", "-n"], input=script.encode(), check=True)
 
     def test_bad_commands(self):
+        self.assertIn("--layer-ghosts", self.error_of("farm", "commands", "--", *RENDER, "--layers", "ghost", code=1))
         self.assertIn("`lens`", self.error_of("farm", "commands", "--", "lens", "list", code=1))
         done = self.run_program("farm", "slurm", "--", "render", "no-such-lens", "-o", "o.#.exr", "--frames", "1", code=1)
         self.assertIn("no-such-lens", done.stderr.decode())

@@ -12,9 +12,11 @@ template <OptionsOfMethod Options>
 Result<Flare> render_alone(DrawWithOptions<Options> draw, const Options& options, const LensState& lens,
                            std::span<const Light> lights, const FrameSettings& settings, const Context& context = {}) {
   RenderCache cache;
-  return render_planned(
+  auto ghosts = render_planned(
       [&](const PlannedFrame& planned, const Context& drawing) { return draw(planned, options, drawing); },
       {lens, lights, settings, cache}, context);
+  if (!ghosts) return tl::unexpected(ghosts.error());
+  return Flare{std::move(ghosts->image), std::move(ghosts->statistics)};
 }
 
 }  // namespace contrejour::test

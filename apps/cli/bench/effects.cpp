@@ -25,10 +25,20 @@ constexpr Vec2 kOtherLight_uv{0.70, 0.33};  // the light of other lenses, that o
 
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+Result<void> render_once(Renderer& renderer, const EffectRender& render, const Context& context) {
+  if (render.layers == nullptr) {
+    const auto flare = renderer.render(render.lights, render.settings, context);
+    return flare ? Result<void>() : tl::unexpected(flare.error());
+  }
+  const auto flare = renderer.render_layers(render.lights, render.settings, *render.layers, context);
+  return flare ? Result<void>() : tl::unexpected(flare.error());
+}
+
 }  // namespace
 
 std::span<const MeasureEffect> effects() {
-  static constexpr std::array kEffects{measure_starbursts, measure_ringing, measure_area_lights, measure_many_lights};
+  static constexpr std::array kEffects{measure_starbursts, measure_ringing, measure_area_lights, measure_many_lights,
+                                       measure_layers};
   return kEffects;
 }
 
@@ -82,8 +92,7 @@ Result<EffectCost> cost_in_turns(const EffectScene& scene, const EffectRender& w
   for (int turn = 0; another_run(turn, scene.runs, all_ms); ++turn) {
     for (const auto& [one, fastest_ms] : {std::pair(&without, &cost.without_ms), std::pair(&with, &cost.with_ms)}) {
       const double start = processor_ms();
-      const auto flare = renderer->render(one->lights, one->settings, scene.context);
-      if (!flare) return tl::unexpected(flare.error());
+      if (const auto done = render_once(*renderer, *one, scene.context); !done) return tl::unexpected(done.error());
       const double ms = processor_ms() - start;
       *fastest_ms = std::min(*fastest_ms, ms);
       all_ms += ms;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/bench/target.h"
+#include "contrejour/expert/flare_layers.h"
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/lens.h"
 #include "contrejour/render.h"
@@ -48,6 +49,7 @@ struct EffectSystem {
 struct EffectRender {
   FrameSettings settings;
   std::vector<Light> lights;
+  const LayerOptions* layers = nullptr;  // null: one picture
 };
 struct EffectCost {
   double without_ms = 0.0, with_ms = 0.0;
@@ -70,6 +72,9 @@ struct EffectCost {
 
 // A light among many compared with a single light.
 [[nodiscard]] Result<std::vector<Target>> measure_many_lights(const EffectScene& scene);
+
+// A frame in layers compared with one picture, with several lenses.
+[[nodiscard]] Result<std::vector<Target>> measure_layers(const EffectScene& scene);
 
 // The sun compared with a point, with several lenses.
 [[nodiscard]] Result<std::vector<Target>> measure_area_lights(const EffectScene& scene);

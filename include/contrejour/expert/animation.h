@@ -73,6 +73,10 @@ struct Shutter {
   bool centred = false;
 };
 
+// The names of the lights that are on at a frame and have their position by direction, or in the frame.
+[[nodiscard]] CONTREJOUR_API std::vector<std::string> names_of_lights_at(const Animation& animation, double frame,
+                                                                         bool by_direction);
+
 // Adds the lights that are on at a frame to the values, as --light and --light-at. While the shutter is open a light
 // takes a path, has the mean of its value, and the colour, size and distance of the middle of that time.
 CONTREJOUR_API void add_lights_at(const Animation& animation, double frame, params::Values& values,

@@ -28,8 +28,11 @@ namespace contrejour {
                                                           const Picture& picture, const params::Values& values,
                                                           const Context& context = {});
 
-// Writes an image of the photograph's size, such as its flare, as a picture of its own that is aligned with the
-// photograph: with its windows, and the plan's colour space and pixel aspect.
+// An image of the photograph's size, such as its flare, as a picture of its own that is aligned with the photograph:
+// with its windows, and the plan's colour space and pixel aspect.
+[[nodiscard]] CONTREJOUR_API Picture aligned_picture(const Image& image, const Picture& picture, const FlarePlan& plan);
+
+// Writes such a picture.
 [[nodiscard]] CONTREJOUR_API Result<void> write_aligned(OutputFile& file, const Image& image, const Picture& picture,
                                                         const FlarePlan& plan, const Context& context = {});
 

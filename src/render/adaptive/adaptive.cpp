@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
+#include <span>
 
 #include "base/clock.h"
 #include "base/tasks.h"
@@ -69,39 +71,54 @@ std::vector<std::size_t> longest_first(std::span<const ItemEstimate> estimates, 
   return order;
 }
 
-// Paints the items batch by batch and draws each batch: in the order of the items, whatever the number of threads.
+// Items that are drawn into one image, in their order, with their estimates.
+struct PaintedItems {
+  std::span<const Item> items;
+  std::span<const ItemEstimate> estimates;
+
+  [[nodiscard]] PaintedItems part(std::size_t first, std::size_t count) const {
+    return {items.subspan(first, count), estimates.subspan(first, count)};
+  }
+};
+
+// Paints items batch by batch and draws each batch: in the order of the items, whatever the number of threads.
 class FramePainter {
  public:
-  FramePainter(const Scene& scene, const Frame& frame, const PatternAtlas* atlas, Scratch& scratch, RenderCache& cache,
-               const Context& context, DrawnFlare& flare)
-      : scene_(scene), atlas_(atlas), scratch_(scratch), cache_(cache), frame_(frame), context_(context),
-        quiet_(context), flare_(flare) {
+  // budget: of each item.
+  FramePainter(const Scene& scene, const Frame& frame, const PatternAtlas* atlas, const ErrorBudget& budget,
+               Scratch& scratch, RenderCache& cache, const Context& context, std::size_t item_count)
+      : scene_(scene), atlas_(atlas), budget_(budget), scratch_(scratch), cache_(cache), frame_(frame),
+        context_(context), quiet_(context), item_count_(item_count), crop_margin_px_(scene.plan.dark_margin_px) {
     quiet_.progress = {};
+    if (scene.plan.layers && !crop_margin_px_) crop_margin_px_ = 0;
   }
 
-  void paint(const std::vector<Item>& items, const std::vector<ItemEstimate>& estimates, const ErrorBudget& budget) {
-    const bool patterned =
-        std::ranges::any_of(items, [](const Item& item) { return item.patterns != nullptr || !item.shadows.empty(); });
+  void paint(const PaintedItems& all, DrawnImage& to) {
+    const bool patterned = std::ranges::any_of(
+        all.items, [](const Item& item) { return item.patterns != nullptr || !item.shadows.empty(); });
+    const std::size_t item_count = all.items.size();
     mode_ = RasterMode::Write;
-    if (items.empty()) draw(*new_batch(), true);
-    for (std::size_t done = 0; done < items.size();) {
+    if (item_count == 0) draw(*new_batch(), true, to);
+    for (std::size_t done = 0; done < item_count;) {
       const std::unique_ptr<PolygonBatch> batch = new_batch();
-      for (std::size_t lists = 0; done < items.size() && batch->bytes() < kBatchBytes;) {
-        const std::size_t count = std::min(patterned ? kPatternedItemsAtOnce : kItemsAtOnce, items.size() - done);
+      for (std::size_t lists = 0; done < item_count && batch->bytes() < kBatchBytes;) {
+        const std::size_t count = std::min(patterned ? kPatternedItemsAtOnce : kItemsAtOnce, item_count - done);
         batch->extend(count);
-        paint_some({items.data() + done, count}, {estimates.data() + done, count}, budget, *batch, lists);
+        paint_some(all.part(done, count), *batch, lists);
         lists += count;
         if (context_.cancelled()) return;  // some items may not be painted
         done += count;
+        painted_ += count;
       }
       paint_ms_ += watch_.lap_ms();
-      draw(*batch, done == items.size());
+      draw(*batch, done == item_count, to);
       tiles_ms_ += watch_.lap_ms();
-      if (context_.progress) context_.progress(static_cast<double>(done) / static_cast<double>(items.size()));
+      if (context_.progress) context_.progress(static_cast<double>(painted_) / static_cast<double>(item_count_));
     }
   }
 
   [[nodiscard]] const Work& work() const { return work_; }
+  [[nodiscard]] std::uint64_t primitives() const { return primitives_; }
   [[nodiscard]] double paint_ms() const { return paint_ms_; }
   [[nodiscard]] double tiles_ms() const { return tiles_ms_; }
 
@@ -111,56 +128,87 @@ class FramePainter {
   }
 
   // first: the list of the first item in the batch.
-  void paint_some(std::span<const Item> items, std::span<const ItemEstimate> estimates, const ErrorBudget& budget,
-                  PolygonBatch& batch, std::size_t first) {
-    std::vector<Work> work(items.size());
-    std::vector<std::size_t> primitives(items.size());
-    const std::vector<std::size_t> order = longest_first(estimates, budget.peak);
+  void paint_some(const PaintedItems& some, PolygonBatch& batch, std::size_t first) {
+    const std::size_t count = some.items.size();
+    std::vector<Work> work(count);
+    std::vector<std::size_t> primitives(count);
+    const std::vector<std::size_t> order = longest_first(some.estimates, budget_.peak);
     std::atomic<std::size_t> next = 0;
-    parallel_for(items.size(), quiet_, [&](std::size_t) {
+    parallel_for(count, quiet_, [&](std::size_t) {
       const std::size_t k = order[next.fetch_add(1)];
-      TessellatedItem tessellated = tessellate_item(scene_, items[k], estimates[k], frame_, budget, scratch_.cells);
+      TessellatedItem tessellated =
+          tessellate_item(scene_, some.items[k], some.estimates[k], frame_, budget_, scratch_.cells);
       work[k] = tessellated.work;
       primitives[k] = tessellated.polygons.polygons.size();
       batch.set(first + k, std::move(tessellated.polygons));
     });
     for (const Work& one : work) work_.add(one);
-    for (const std::size_t count : primitives) flare_.statistics.primitives += count;
+    for (const std::size_t polygons : primitives) primitives_ += polygons;
   }
 
-  void draw(PolygonBatch& batch, bool is_last) {
+  void draw(PolygonBatch& batch, bool is_last, DrawnImage& to) {
     const bool is_first = mode_ == RasterMode::Write;
-    if (is_first && is_last && scene_.plan.dark_margin_px)
-      return draw_illuminated_region(batch, *scene_.plan.dark_margin_px);
-    if (is_first) flare_.image = unwritten_image(cache_, frame_.width, frame_.height);
-    batch.draw(mode_, context_, {flare_.image});
+    if (is_first && is_last && crop_margin_px_) return draw_illuminated_region(batch, *crop_margin_px_, to);
+    if (is_first)
+      to.image = scene_.plan.layers ? Image::unwritten(frame_.width, frame_.height)
+                                    : unwritten_image(cache_, frame_.width, frame_.height);
+    batch.draw(mode_, context_, {to.image});
     mode_ = RasterMode::Add;
   }
 
-  void draw_illuminated_region(PolygonBatch& all, int margin_px) {
+  void draw_illuminated_region(PolygonBatch& all, int margin_px, DrawnImage& to) {
     const PixelArea lit = all.touched();
     if (lit.x1 <= lit.x0) return;
-    flare_.left = std::max(lit.x0 - margin_px, 0);
-    flare_.top = std::max(lit.y0 - margin_px, 0);
+    to.left = std::max(lit.x0 - margin_px, 0);
+    to.top = std::max(lit.y0 - margin_px, 0);
     const int right = std::min(lit.x1 + margin_px, frame_.width);
     const int bottom = std::min(lit.y1 + margin_px, frame_.height);
-    flare_.image = Image::unwritten(right - flare_.left, bottom - flare_.top);
-    all.draw(mode_, context_, {flare_.image, flare_.left, flare_.top});
+    to.image = Image::unwritten(right - to.left, bottom - to.top);
+    all.draw(mode_, context_, {to.image, to.left, to.top});
   }
 
   const Scene& scene_;
   const PatternAtlas* atlas_;
+  const ErrorBudget budget_;
   Scratch& scratch_;
   RenderCache& cache_;
   const Frame& frame_;
   const Context& context_;
   Context quiet_;
-  DrawnFlare& flare_;
+  std::size_t item_count_, painted_ = 0;
+  std::optional<int> crop_margin_px_;
   RasterMode mode_ = RasterMode::Write;
   Work work_;
+  std::uint64_t primitives_ = 0;
   Stopwatch watch_;
   double paint_ms_ = 0.0, tiles_ms_ = 0.0;
 };
+
+// Puts the items in the order of their layers, which share the estimates and the budget of the whole frame.
+void sort_by_layer(std::vector<Item>& items, std::vector<ItemEstimate>& estimates) {
+  std::vector<std::size_t> order(items.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return items[k].layer; });
+  std::vector<Item> sorted_items;
+  std::vector<ItemEstimate> sorted_estimates;
+  for (const std::size_t k : order) {
+    sorted_items.push_back(std::move(items[k]));
+    sorted_estimates.push_back(estimates[k]);
+  }
+  items = std::move(sorted_items);
+  estimates = std::move(sorted_estimates);
+}
+
+void paint_layers(FramePainter& painter, std::size_t layer_count, std::vector<Item>& items,
+                  std::vector<ItemEstimate>& estimates, DrawnFlare& flare) {
+  sort_by_layer(items, estimates);
+  const PaintedItems all{items, estimates};
+  flare.layers.resize(layer_count);
+  for (std::size_t first = 0, end = 0; first < items.size(); first = end) {
+    while (end < items.size() && items[end].layer == items[first].layer) ++end;
+    painter.paint(all.part(first, end - first), flare.layers[items[first].layer]);
+  }
+}
 
 }  // namespace
 
@@ -183,7 +231,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   const double bound_ms = watch.lap_ms();
   StopTransmittances stops(lens, settings, plan.dirt, cache);
   const std::shared_ptr<Scratch> scratch = cache.section<Scratch>({});
-  const PreviewFrame preview = draw_preview(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
+  PreviewFrame preview = draw_preview(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(preview.peak > 0.0);
   const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
@@ -198,8 +246,12 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   if (context.cancelled()) return interrupted();
   const double peak_ms = watch.lap_ms();
   const PatternAtlas* const atlas = stops.patterns() ? &stops.patterns()->atlas() : nullptr;
-  FramePainter painter(scene, frame, atlas, *scratch, cache, context, flare);
-  painter.paint(items, preview.estimates, budget_per_item(allowed, preview.estimates));
+  FramePainter painter(scene, frame, atlas, budget_per_item(allowed, preview.estimates), *scratch, cache, context,
+                       items.size());
+  if (plan.layers)
+    paint_layers(painter, plan.layers->count(), items, preview.estimates, flare);
+  else
+    painter.paint({items, preview.estimates}, flare.picture);
   if (context.cancelled()) return interrupted();
 
   work.add(painter.work());
@@ -207,6 +259,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   stats.method = "adaptive";
   stats.rays = work.rays;
   stats.surface_hits = work.surface_hits;
+  stats.primitives = painter.primitives();
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
   stats.time_ms = {{"bound", bound_ms},

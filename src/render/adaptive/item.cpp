@@ -141,8 +141,12 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   std::vector<Item> items;
   for_each_pair(scene.plan, [&](std::size_t g, std::size_t k) {
     const Ghost& ghost = scene.plan.ghosts[g];
-    items.push_back(
-        {ghost, &scene.plan.adjustments[g], &lights[k], windows[k].of(has_axial_symmetry(scene.lens, ghost)), {}});
+    items.push_back({ghost,
+                     &scene.plan.adjustments[g],
+                     &lights[k],
+                     windows[k].of(has_axial_symmetry(scene.lens, ghost)),
+                     scene.plan.layer_of(g, k),
+                     {}});
   });
   std::vector<Work> done(items.size());
   const std::vector<GhostPupil>& known = scene.plan.pupils;

@@ -31,6 +31,7 @@ struct Item {
   const AppliedAdjustment* adjustment = nullptr;
   const PlannedLight* light = nullptr;
   EntranceWindow window;  // of the light
+  std::size_t layer = 0;  // of the plan's
   std::vector<Rectangle> boxes;  // in the light's meridional frame; empty: no light gets through
   std::shared_ptr<const GhostPatterns> patterns = nullptr;  // null: the iris is sharp
   // Transmittance of dirt: one a pass, or one for all; empty: no shadows are drawn, and

@@ -41,14 +41,23 @@ FramePlan part_of(const FramePlan& plan, const BlurredImage& image) {
   part.tables = plan.tables;
   part.reflectances = plan.reflectances;
   part.dirt = plan.dirt;
+  part.layers = plan.layers;
   return part;
 }
+
+// The sum of the blurred pictures of a layer, or of the whole frame.
+struct LayerSum {
+  explicit LayerSum(const Frame& frame) : pyramid(frame) {}
+  ImagePyramid pyramid;
+  bool is_lit = false;
+};
 
 // Renders the drawings in order, blurs each, and adds them up.
 class AreaPainter {
  public:
   AreaPainter(const DrawPlan& draw, const PlannedFrame& frame, const Context& context)
-      : draw_(draw), frame_(frame), context_(context), pyramid_(frame.settings.frame) {
+      : draw_(draw), frame_(frame), context_(context),
+        sums_(frame.plan.layers ? frame.plan.layers->count() : 1, LayerSum(frame.settings.frame)) {
     context_.progress = {};
   }
 
@@ -61,56 +70,71 @@ class AreaPainter {
     part.min_peak = peak * std::exp2(2 * image.level);
     if (piece != nullptr) {
       const KernelExtent extent = extent_of(*piece, image.px_from_tangents);
-      at = pyramid_.frame_for(image.level, extent);
+      at = ImagePyramid(frame_.settings.frame).frame_for(image.level, extent);
       drawn.frame = at.frame;
       part.dark_margin_px = std::max(extent.left + extent.right, extent.up + extent.down);
     }
-    auto picture = draw_({frame_.lens, part, drawn, frame_.cache}, context_);
-    if (!picture) return tl::unexpected(picture.error());
-    add(statistics_, picture->statistics);
+    auto flare = draw_({frame_.lens, part, drawn, frame_.cache}, context_);
+    if (!flare) return tl::unexpected(flare.error());
+    add(statistics_, flare->statistics);
     const auto start = Clock::now();
-    pyramid_.upsample_to(image.level, context_);
-    const PicturePart lit{picture->image, picture->left, picture->top};
-    const bool is_whole = lit.image.width == drawn.frame.width && lit.image.height == drawn.frame.height;
-    if (piece != nullptr)
-      pyramid_.add(lit, at, make_kernel(*piece, image.px_from_tangents, at.moved),
-                   kNegligibleError * frame_.settings.area_error * peak, context_);
-    else
-      is_whole ? pyramid_.add_sharp(std::move(picture->image), context_) : pyramid_.add_sharp(lit, context_);
+    if (!part.layers) add_to(sums_.front(), image, at, std::move(flare->picture), peak);
+    for (std::size_t k = 0; k < flare->layers.size(); ++k)
+      if (!flare->layers[k].image.pixels.empty()) add_to(sums_[k], image, at, std::move(flare->layers[k]), peak);
     ms_ += ms_since(start);
     return {};
   }
 
-  Flare finish(double before_ms) && {
+  GhostImages finish(double before_ms) && {
     const auto start = Clock::now();
-    Flare flare{std::move(pyramid_).flattened(context_), std::move(statistics_)};
-    RenderStatistics& stats = flare.statistics;
+    GhostImages ghosts;
+    ghosts.layer_map = frame_.plan.layers;
+    if (!ghosts.layer_map) ghosts.image = std::move(sums_.front().pyramid).flattened(context_);
+    if (ghosts.layer_map) ghosts.layers.resize(sums_.size());
+    for (std::size_t k = 0; k < ghosts.layers.size(); ++k)
+      if (sums_[k].is_lit) ghosts.layers[k].image = std::move(sums_[k].pyramid).flattened(context_);
+    RenderStatistics& stats = ghosts.statistics;
+    stats = std::move(statistics_);
     stats.ghosts_rendered = static_cast<int>(frame_.plan.ghosts.size());
     stats.ghosts_skipped_flux = frame_.plan.skipped_flux;
     count_last(stats, "areas", before_ms + ms_ + ms_since(start));
-    return flare;
+    return ghosts;
   }
 
  private:
+  // Blurs a picture and adds it to a sum. at: where the picture lies in the pyramid, unless it stays sharp.
+  void add_to(LayerSum& sum, const BlurredImage& image, const PyramidFrame& at, DrawnImage picture, double peak) {
+    sum.is_lit = true;
+    sum.pyramid.upsample_to(image.level, context_);
+    const PicturePart lit{picture.image, picture.left, picture.top};
+    const Frame& frame = frame_.settings.frame;
+    const bool is_whole = lit.image.width == frame.width && lit.image.height == frame.height;
+    if (image.piece)
+      sum.pyramid.add(lit, at, make_kernel(*image.piece, image.px_from_tangents, at.moved),
+                      kNegligibleError * frame_.settings.area_error * peak, context_);
+    else
+      is_whole ? sum.pyramid.add_sharp(std::move(picture.image), context_) : sum.pyramid.add_sharp(lit, context_);
+  }
+
   const DrawPlan& draw_;
   const PlannedFrame frame_;
   Context context_;
-  ImagePyramid pyramid_;
+  std::vector<LayerSum> sums_;
   RenderStatistics statistics_;
   double ms_ = 0.0;
 };
 
 }  // namespace
 
-Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
+Result<GhostImages> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   auto start = Clock::now();
-  const auto& [lens, lights, settings, cache] = frame;
+  const auto& [lens, lights, settings, cache, layers] = frame;
   if (const auto good = check_error_bound(settings.area_error); !good) return tl::unexpected(good.error());
   for (const Light& light : lights)
     if (const auto ok = check_extent(light); !ok) return tl::unexpected(ok.error());
   std::vector<DividedLight> wholes = whole_lights(lights);
   const std::vector<Light> points = points_of(wholes);
-  auto plan = plan_frame({lens, points, settings, cache}, context);
+  auto plan = plan_frame({lens, points, settings, cache, layers}, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
   for (std::size_t k = 0; k < wholes.size(); ++k) wholes[k].planned = {plan->lights[k]};
   const double plan_ms = ms_since(start);
@@ -130,9 +154,9 @@ Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, cons
     if (context.cancelled()) return interrupted();
     if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(images.size()));
   }
-  Flare flare = std::move(painter).finish(survey_ms);
-  count_first(flare.statistics, "plan", plan_ms);
-  return flare;
+  GhostImages ghosts = std::move(painter).finish(survey_ms);
+  count_first(ghosts.statistics, "plan", plan_ms);
+  return ghosts;
 }
 
 }  // namespace contrejour::inline internal

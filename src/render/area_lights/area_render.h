@@ -8,6 +8,6 @@ namespace contrejour::inline internal {
 
 // Like render_planned, for lights at least one of which has a size. Errors: those of planning and of the method, and
 // InvalidArgument for an area_error out of range.
-[[nodiscard]] Result<Flare> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context);
+[[nodiscard]] Result<GhostImages> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -79,7 +79,10 @@ Result<std::vector<DividedLight>> GhostSurvey::cut(const std::set<Cut>& wanted) 
   if (!planned) return tl::unexpected(planned.error());
   auto next = planned->begin();
   for (DividedLight& light : divided)
-    for (std::size_t k = 0; k < light.pieces.size(); ++k) light.planned.push_back(std::move(*next++));
+    for (std::size_t k = 0; k < light.pieces.size(); ++k) {
+      light.planned.push_back(std::move(*next++));
+      light.planned.back().index = light.light;
+    }
   return divided;
 }
 

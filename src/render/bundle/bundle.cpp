@@ -11,6 +11,7 @@
 #include "render/bundle/stopwatch.h"
 #include "render/planning/adaptive_passes.h"
 #include "render/planning/grid_side.h"
+#include "render/planning/layer_images.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -78,8 +79,7 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return interrupted();
 
-  DrawnFlare flare;
-  flare.image = Image(frame.width, frame.height, 3);
+  LayerImages images(plan, frame);
   Counts counts;
   if (bounds) {
     counts.rays = bounds->rays();
@@ -90,14 +90,16 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) { return bundle::ItemRenderer(items[k], frame, source, context).render(); },
-      [&](std::size_t, const RenderedItem& item) {
+      [&](std::size_t k, const RenderedItem& item) {
         const Stopwatch adding(times.accumulate_ms);
-        add_to(flare.image, item);
+        add_to(images.at(items[k].layer), item);
         counts.add(item.counts);
       });
   if (!done) return interrupted();
   times.items_ms = whole.elapsed_ms() - times.bounds_ms;
 
+  DrawnFlare flare;
+  images.move_to(flare);
   RenderStatistics& stats = flare.statistics;
   stats.method = "bundle";
   stats.rays = counts.rays;

@@ -64,7 +64,7 @@ std::vector<Item> items_of(const FramePlan& plan, const BundleOptions& options) 
     const std::size_t together = blurred ? all.size() : kPassesPerItem;
     for (std::size_t first = 0; first < all.size(); first += together) {
       items.push_back({plan.ghosts[g], &plan.adjustments[g], &light,
-                       all.subspan(first, std::min(together, all.size() - first)), blurred});
+                       all.subspan(first, std::min(together, all.size() - first)), blurred, plan.layer_of(g, k)});
     }
   });
   return items;

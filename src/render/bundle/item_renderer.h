@@ -20,6 +20,7 @@ struct Item {
   const PlannedLight* light = nullptr;
   std::span<const PlannedPass> passes;
   bool are_blurred = false;  // into each other
+  std::size_t layer = 0;     // of the plan's
 };
 
 // RGB values of the pixels that the item touches.

@@ -83,7 +83,7 @@ struct Preparation {
 // nullopt when cancelled.
 std::optional<Preparation> prepare(const FrameRequest& request, const TablesByWavelength& tables,
                                    const BandsBySpectrum& spectra, const Context& context) {
-  const auto& [lens, lights, settings, cache] = request;
+  const auto& [lens, lights, settings, cache, layers] = request;
   const std::shared_ptr<KeptDirt> dirt = cache.section<KeptDirt>(KeptDirt::key_of(lens));
   Preparation out;
   out.tables = tables;
@@ -146,18 +146,22 @@ std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std:
   for (std::size_t k = 0; k < lights.size(); ++k) metered.push_back({measured[k], bands_for(lights[k], spectra)});
   if (!measure_fluxes(lens, tables, metered, context)) return std::nullopt;
   std::vector<PlannedLight> planned;
-  for (std::size_t k = 0; k < lights.size(); ++k)
+  for (std::size_t k = 0; k < lights.size(); ++k) {
     planned.push_back(plan_light(lens, tables, lights[k], metered[k], edge_gain(lens, lights[k], settings)));
+    planned.back().index = k;
+  }
   return planned;
 }
 
 }  // namespace
 
 Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context) {
-  const auto& [lens, lights, settings, cache] = request;
+  const auto& [lens, lights, settings, cache, layers] = request;
   if (const auto problem = problem_with(lens, lights, settings)) return tl::unexpected<Error>(*problem);
   if (const auto good = check_ghost_options(lens, settings.ghosts); !good) return tl::unexpected(good.error());
   if (const auto good = check_selection(lens, settings.selection); !good) return tl::unexpected(good.error());
+  if (layers != nullptr)
+    if (const auto good = check_layers(lens, *layers); !good) return tl::unexpected(good.error());
 
   FramePlan plan;
   Context quiet = context;
@@ -174,7 +178,8 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
   plan.dirt = std::move(prepared->dirt);
   plan.adapts_passes = settings.lambda_nm.empty() && settings.wavelengths == kAutoWavelengths;
   plan.reflectances = kept->reflectances(wavelengths_of(spectra));
-  auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, quiet);
+  const bool measures = layers != nullptr && needs_flux(*layers);
+  auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, measures, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);
   plan.adjustments = applied_adjustments(lens, plan.ghosts, settings.ghosts, settings.frame);
@@ -182,6 +187,8 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
     return tl::unexpected(good.error());
   plan.skipped_flux = selected->skipped_flux;
   plan.pupils = std::move(selected->pupils);
+  if (layers != nullptr)
+    plan.layers = std::make_shared<const LayerMap>(*layers, plan.ghosts, selected->flux_fractions, lights);
   return plan;
 }
 
@@ -198,7 +205,7 @@ Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const 
   return std::move(*planned);
 }
 
-Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
+Result<GhostImages> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const auto start = Clock::now();
   const auto plan = plan_frame(frame, context);
   if (!plan) return tl::unexpected<Error>(plan.error());
@@ -206,7 +213,8 @@ Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, co
   auto drawn = draw({frame.lens, *plan, frame.settings, frame.cache}, context);
   if (!drawn) return tl::unexpected<Error>(drawn.error());
   count_first(drawn->statistics, "plan", plan_ms);
-  return Flare{std::move(drawn->image), std::move(drawn->statistics)};
+  return GhostImages{std::move(drawn->picture.image), std::move(drawn->layers), plan->layers,
+                     std::move(drawn->statistics)};
 }
 
 }  // namespace contrejour::inline internal

@@ -14,6 +14,7 @@
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/applied_adjustment.h"
 #include "render/planning/dirt_field.h"
+#include "render/planning/layer_map.h"
 #include "render/planning/planned_light.h"
 #include "render/planning/render_cache.h"
 #include "render/pupils/ghost_pupil.h"
@@ -46,6 +47,12 @@ struct FramePlan {
   double min_peak = 0.0;
   // If set, rows and columns that are farther than this many pixels from all light may be left out of the picture.
   std::optional<int> dark_margin_px;
+  std::shared_ptr<const LayerMap> layers = nullptr;  // null: one picture
+
+  // The layer of a pair; 0 without layers.
+  [[nodiscard]] std::size_t layer_of(std::size_t ghost, std::size_t light) const {
+    return layers ? layers->of(ghosts[ghost], lights[light].index) : 0;
+  }
 };
 
 // Calls visit(ghost, light) for each pair that is drawn.
@@ -72,6 +79,7 @@ struct FrameRequest {
   std::span<const Light> lights;
   const FrameSettings& settings;
   RenderCache& cache;
+  const LayerOptions* layers = nullptr;  // null: one picture
 };
 
 // Errors: InvalidArgument for settings out of range, Cancelled.
@@ -82,10 +90,16 @@ struct FrameRequest {
                                                                  std::span<const Light> lights,
                                                                  const FrameSettings& settings, const Context& context);
 
-// What a method draws: the image of a part of the frame, and where that part begins. The rest of the frame is dark.
-struct DrawnFlare {
+// The image of a part of the frame, and where that part begins. The rest of the frame is dark.
+struct DrawnImage {
   Image image;
   int left = 0, top = 0;
+};
+
+// The result of a method's drawing.
+struct DrawnFlare {
+  DrawnImage picture;  // without the plan's layers
+  std::vector<DrawnImage> layers;  // one for each of the plan's layers; without pixels where it is dark
   RenderStatistics statistics;
 };
 
@@ -101,7 +115,16 @@ struct PlannedFrame {
 // A method with its options: draws what a plan lists.
 using DrawPlan = std::function<Result<DrawnFlare>(const PlannedFrame& frame, const Context& context)>;
 
+// All ghosts of a frame, without the lights' own images: one image of the whole frame, or layers.
+struct GhostImages {
+  Image image;
+  std::vector<DrawnImage> layers;
+  std::shared_ptr<const LayerMap> layer_map;  // null: one image
+  RenderStatistics statistics;
+};
+
 // Plans, then draws; the statistics' phases begin with "plan". Errors: those of both.
-[[nodiscard]] Result<Flare> render_planned(const DrawPlan& draw, const FrameRequest& frame, const Context& context);
+[[nodiscard]] Result<GhostImages> render_planned(const DrawPlan& draw, const FrameRequest& frame,
+                                                 const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -196,6 +196,7 @@ GhostChoice first_of(const std::vector<Ghost>& all, std::size_t lights, Measured
       continue;
     }
     out.ghosts.push_back(all[g]);
+    out.flux_fractions.push_back(largest(fraction[g]));
     for (std::size_t light = 0; light < lights && !measured.pupils.empty(); ++light)
       out.pupils.push_back(std::move(measured.pupils[g * lights + light]));
   }
@@ -216,13 +217,14 @@ struct Selector {
   std::span<const PlannedLight> lights;
   const TablesByWavelength& tables;
   const FrameSettings& settings;
+  bool measures;
   const Context& context;
 
   [[nodiscard]] std::vector<Ghost> in_scope() const {
     return enumerate_ghosts(lens, settings.scope, settings.reflections);
   }
 
-  Result<GhostChoice> operator()(const SelectAll&) const { return GhostChoice{in_scope(), 0.0, {}}; }
+  Result<GhostChoice> operator()(const SelectAll&) const { return listed({in_scope(), 0.0}); }
   Result<GhostChoice> operator()(const SelectBrightest& select) const {
     return by_flux([&](const auto&, const auto&) { return static_cast<std::size_t>(std::max(0, select.count)); });
   }
@@ -231,13 +233,25 @@ struct Selector {
   }
   Result<GhostChoice> operator()(const SelectList& select) const {
     const std::set<Ghost> once(select.ghosts.begin(), select.ghosts.end());
-    return GhostChoice{{once.begin(), once.end()}};
+    return listed({{once.begin(), once.end()}});
   }
   Result<GhostChoice> operator()(const SelectSurface& select) const {
-    return those_where(in_scope(), [&](const Ghost& g) { return g.reflects_at(select.surface); });
+    return listed(those_where(in_scope(), [&](const Ghost& g) { return g.reflects_at(select.surface); }));
   }
 
  private:
+  // A choice that did not need the ghosts' fluxes, with them if they are requested.
+  [[nodiscard]] Result<GhostChoice> listed(GhostChoice choice) const {
+    if (!measures) return choice;
+    const GhostMeasuring measuring(lens, lights, tables, settings);
+    auto measured = measuring.measure(choice.ghosts, context);
+    if (!measured) return tl::unexpected<Error>(measured.error());
+    for (const Rgb& fraction : fractions_of(measured->flux)) choice.flux_fractions.push_back(largest(fraction));
+    choice.pupils = std::move(measured->pupils);
+    if (!measuring.fit(choice.ghosts, choice.pupils, context)) return interrupted();
+    return choice;
+  }
+
   // count(fractions, order) says how many ghosts to keep, given their fractions of the flux and their indices in
   // decreasing order of these.
   template <class Count>
@@ -262,9 +276,9 @@ Result<void> check_selection(const LensState& lens, const GhostSelection& select
 }
 
 Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                  const TablesByWavelength& tables, const FrameSettings& settings,
+                                  const TablesByWavelength& tables, const FrameSettings& settings, bool measures,
                                   const Context& context) {
-  return std::visit(Selector{lens, lights, tables, settings, context}, settings.selection);
+  return std::visit(Selector{lens, lights, tables, settings, measures, context}, settings.selection);
 }
 
 }  // namespace contrejour::inline internal

@@ -21,6 +21,7 @@ struct GhostChoice {
   std::optional<double> skipped_flux = std::nullopt;
   // The ghosts' pupils, by ghost and then by light, if the selection had to find them.
   std::vector<pupils::GhostPupil> pupils = {};
+  std::vector<double> flux_fractions = {};  // each ghost's of that of all ghosts, if the ghosts were measured
 };
 
 // Errors: InvalidArgument for a listed ghost that the lens does not have.
@@ -29,9 +30,9 @@ struct GhostChoice {
 // Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. Their flux is what they add to
 // the picture's channels inside the frame, with the lights' values and spectra and the ghosts' adjustments: a ghost is
 // as bright as its largest fraction, in any channel, of the flux of all ghosts. tables: those of the lights'
-// wavelengths. Errors: Cancelled.
+// wavelengths. measures: measures the ghosts in any case. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
                                                 const TablesByWavelength& tables, const FrameSettings& settings,
-                                                const Context& context);
+                                                bool measures, const Context& context);
 
 }  // namespace contrejour::inline internal

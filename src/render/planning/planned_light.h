@@ -2,6 +2,7 @@
 // A light as renderers use it: the wavelengths at which it is drawn, and the factors from flux to pixel values.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "contrejour/expert/colour.h"
@@ -22,6 +23,7 @@ struct PlannedPass {
 struct PlannedLight {
   LightSource source;
   std::vector<PlannedPass> passes;  // in order of wavelength
+  std::size_t index = 0;            // of the frame's light that this is, or is a piece of
 };
 
 }  // namespace contrejour::inline internal

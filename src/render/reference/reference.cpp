@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "base/tasks.h"
-#include "render/planning/frame_plan.h"
+#include "render/planning/layer_images.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
 #include "render/stop_patterns/stop_transmittances.h"
@@ -17,13 +17,15 @@ struct Item {
   const AppliedAdjustment* adjustment;
   const PlannedLight* light;
   const PlannedPass* pass;
+  std::size_t layer;  // of the plan's
 };
 
 std::vector<Item> items_of(const FramePlan& plan) {
   std::vector<Item> items;
   for_each_pair(plan, [&](std::size_t g, std::size_t k) {
     const PlannedLight& light = plan.lights[k];
-    for (const PlannedPass& pass : light.passes) items.push_back({plan.ghosts[g], &plan.adjustments[g], &light, &pass});
+    for (const PlannedPass& pass : light.passes)
+      items.push_back({plan.ghosts[g], &plan.adjustments[g], &light, &pass, plan.layer_of(g, k)});
   });
   return items;
 }
@@ -63,14 +65,16 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
   if (!stops.prepare(plan, context)) return interrupted();
 
   DrawnFlare flare;
-  flare.image = Image(settings.frame.width, settings.frame.height, 3);
   RenderStatistics& stats = flare.statistics;
-  std::vector<double> sum(flare.image.pixels.size());
+  LayerImages images(plan, settings.frame);
+  std::vector<std::vector<double>> sums(plan.layers ? plan.layers->count() : 1);
   const auto items = items_of(plan);
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) { return render_item(items[k], planned, options.density, stops, context); },
       [&](std::size_t k, const RenderedItem& rendered) {
+        std::vector<double>& sum = sums[items[k].layer];
+        sum.resize(images.at(items[k].layer).pixels.size());
         rendered.flux.add_to(sum, items[k].adjustment->tinted(items[k].pass->gain));
         stats.rays += rendered.counts.rays;
         stats.surface_hits += rendered.counts.rays * rendered.surfaces;
@@ -78,7 +82,10 @@ Result<DrawnFlare> render_reference(const PlannedFrame& planned, const Reference
       });
   if (!done) return interrupted();
 
-  for (std::size_t i = 0; i < sum.size(); ++i) flare.image.pixels[i] = static_cast<float>(sum[i]);
+  for (std::size_t layer = 0; layer < sums.size(); ++layer)
+    for (std::size_t i = 0; i < sums[layer].size(); ++i)
+      images.at(layer).pixels[i] = static_cast<float>(sums[layer][i]);
+  images.move_to(flare);
   stats.method = "reference";
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;

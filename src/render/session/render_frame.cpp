@@ -2,6 +2,9 @@
 #include "render/session/render_frame.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -22,34 +25,130 @@ Context part_of(const Context& whole, double from, double to) {
   return part;
 }
 
-Result<Flare> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
+Result<GhostImages> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool points = std::ranges::all_of(frame.lights, [](const Light& light) { return light.is_point(); });
   return (points ? render_planned : render_areas)(draw, frame, context);
 }
 
-Result<Flare> render_with_lights(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
-  const auto& [lens, lights, settings, cache] = frame;
-  if (const auto good = check_light_images(lights, settings); !good) return tl::unexpected(good.error());
-  auto flare = render_ghosts(draw, frame, part_of(context, 0.0, kGhostsFraction));
-  if (!flare) return flare;
-  const auto added = add_light_images(*flare, lens, settings.starburst.lights ? *settings.starburst.lights : lights,
-                                      settings, part_of(context, kGhostsFraction, 1.0));
+bool adds_lights(const FrameSettings& settings) { return settings.starburst.on || settings.glare.fraction != 0.0; }
+
+std::span<const Light> imaged_lights(const FrameRequest& frame) {
+  const auto& own = frame.settings.starburst.lights;
+  return own ? std::span<const Light>(*own) : frame.lights;
+}
+
+Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
+  const bool adds = adds_lights(frame.settings);
+  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
+  if (!ghosts) return tl::unexpected(ghosts.error());
+  Flare flare{std::move(ghosts->image), std::move(ghosts->statistics)};
+  if (!adds) return flare;
+  const auto added = add_light_images(flare.image, flare.statistics, frame.lens, imaged_lights(frame), frame.settings,
+                                      part_of(context, kGhostsFraction, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
+}
+
+// The layer of each light with an image of its own: that of the light in the nearest direction, since bright areas of a
+// photograph may be divided into more lights for their images than for their ghosts.
+std::vector<std::size_t> layers_of_images(const LayerMap& map, const FrameRequest& frame) {
+  const std::span<const Light> imaged = imaged_lights(frame);
+  std::vector<std::size_t> layers(imaged.size());
+  for (std::size_t k = 0; k < imaged.size(); ++k) {
+    const auto away = [&](const Light& light) { return length(light.direction - imaged[k].direction); };
+    const auto nearest = std::ranges::min_element(frame.lights, {}, away);
+    const bool is_same = !frame.settings.starburst.lights;
+    layers[k] = map.of_light(is_same ? k : static_cast<std::size_t>(std::distance(frame.lights.begin(), nearest)));
+  }
+  return layers;
+}
+
+void add(FlareLayer& layer, Image image) {
+  if (image.pixels.empty()) return;
+  const FlareLayer ghosts = std::exchange(layer, {layer.name, std::move(image), 0, 0});
+  for (int y = 0; y < ghosts.image.height; ++y)
+    for (std::size_t k = 0; k < ghosts.image.row(y).size(); ++k)
+      layer.image.row(ghosts.top + y)[3 * static_cast<std::size_t>(ghosts.left) + k] += ghosts.image.row(y)[k];
+}
+
+Result<void> add_lights_to(LayeredFlare& flare, const LayerMap& map, const FrameRequest& frame,
+                           const Context& context) {
+  const std::vector<std::size_t> by_light =
+      map.is_by_light() ? layers_of_images(map, frame) : std::vector<std::size_t>();
+  auto images =
+      draw_light_images(flare.statistics, frame.lens, imaged_lights(frame), frame.settings, by_light, context);
+  if (!images) return tl::unexpected(images.error());
+  if (map.is_by_light()) {
+    for (std::size_t k = 0; k < images->starburst.size(); ++k) add(flare.layers[k], std::move(images->starburst[k]));
+    return {};
+  }
+  if (frame.settings.starburst.on) flare.layers.push_back({"starburst", std::move(images->starburst.front()), 0, 0});
+  if (frame.settings.glare.fraction > 0.0) flare.layers.push_back({"glare", std::move(images->glare.front()), 0, 0});
+  return {};
+}
+
+Image sum_of(std::span<const FlareLayer> layers, const Frame& frame, const Context& context) {
+  Image sum(frame.width, frame.height);
+  parallel_for(static_cast<std::size_t>(frame.height), context, [&](std::size_t row) {
+    const auto to = sum.row(static_cast<int>(row));
+    for (const FlareLayer& layer : layers) {
+      const int y = static_cast<int>(row) - layer.top;
+      if (y < 0 || y >= layer.image.height) continue;
+      const auto from = layer.image.row(y);
+      for (std::size_t k = 0; k < from.size(); ++k) to[3 * static_cast<std::size_t>(layer.left) + k] += from[k];
+    }
+  });
+  return sum;
+}
+
+Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
+  const bool adds = adds_lights(frame.settings);
+  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
+  if (!ghosts) return tl::unexpected(ghosts.error());
+  LayeredFlare flare;
+  flare.statistics = std::move(ghosts->statistics);
+  const LayerMap& map = *ghosts->layer_map;
+  for (std::size_t k = 0; k < map.count(); ++k) {
+    DrawnImage& drawn = ghosts->layers[k];
+    flare.layers.push_back({map.names()[k], std::move(drawn.image), drawn.left, drawn.top});
+  }
+  if (adds)
+    if (const auto ok = add_lights_to(flare, map, frame, part_of(context, kGhostsFraction, 1.0)); !ok)
+      return tl::unexpected(ok.error());
+  Context quiet = context;
+  quiet.progress = {};
+  flare.image = sum_of(flare.layers, frame.settings.frame, quiet);
+  return flare;
+}
+
+Result<DrawPlan> checked(const MethodOptions& method, const FrameRequest& frame) {
+  if (auto good = check_lens(frame.lens); !good) return tl::unexpected(good.error());
+  const auto known = known_method(method.name());
+  if (!known) return tl::unexpected(known.error());
+  if (adds_lights(frame.settings))
+    if (const auto good = check_light_images(frame.lights, frame.settings); !good) return tl::unexpected(good.error());
+  return DrawPlan([&method, draw = (*known)->draw](const PlannedFrame& planned, const Context& drawing) {
+    return draw(planned, method, drawing);
+  });
 }
 
 }  // namespace
 
 Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame, const Context& context) {
-  if (auto good = check_lens(frame.lens); !good) return tl::unexpected(good.error());
-  const auto known = known_method(method.name());
-  if (!known) return tl::unexpected(known.error());
-  const DrawPlan draw = [&](const PlannedFrame& planned, const Context& drawing) {
-    return (*known)->draw(planned, method, drawing);
-  };
-  const bool adds_lights = frame.settings.starburst.on || frame.settings.glare.fraction != 0.0;
-  auto flare = (adds_lights ? render_with_lights : render_ghosts)(draw, frame, context);
+  const auto draw = checked(method, frame);
+  if (!draw) return tl::unexpected(draw.error());
+  auto flare = render_whole(*draw, frame, context);
   if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
+  if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
+  return flare;
+}
+
+Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame,
+                                         const Context& context) {
+  const auto draw = checked(method, frame);
+  if (!draw) return tl::unexpected(draw.error());
+  auto flare = draw_layers(*draw, frame, context);
+  if (context.cancelled()) return interrupted();
   if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
   return flare;
 }

@@ -13,4 +13,8 @@ namespace contrejour::inline internal {
 [[nodiscard]] Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame,
                                          const Context& context);
 
+// The same in layers, which the request names.
+[[nodiscard]] Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame,
+                                                       const Context& context);
+
 }  // namespace contrejour::inline internal

@@ -21,6 +21,8 @@ Context rest_of(const Context& whole, double from) {
   return rest;
 }
 
+tl::unexpected<Error> no_lens() { return invalid_argument("a renderer has no lens yet: call set_lens() first"); }
+
 }  // namespace
 
 struct Renderer::State {
@@ -30,8 +32,14 @@ struct Renderer::State {
 
   [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
                                      const FrameSettings& settings, const Context& context) {
-    if (!lens) return invalid_argument("a renderer has no lens yet: call set_lens() first");
+    if (!lens) return no_lens();
     return render_frame(by, {*lens, lights, settings, cache}, context);
+  }
+
+  [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,
+                                                   const LayerOptions& options, const Context& context) {
+    if (!lens) return no_lens();
+    return render_frame_layers(method, {*lens, lights, settings, cache, &options}, context);
   }
 
   // Writes a flare to the caller's image; its memory then serves the next frame.
@@ -86,6 +94,11 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
 
 Result<Flare> Renderer::render(std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   return state_->render(state_->method, lights, settings, context);
+}
+
+Result<LayeredFlare> Renderer::render_layers(std::span<const Light> lights, const FrameSettings& settings,
+                                             const LayerOptions& options, const Context& context) {
+  return state_->render_layers(lights, settings, options, context);
 }
 
 }  // namespace contrejour

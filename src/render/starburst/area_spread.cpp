@@ -159,12 +159,12 @@ Result<void> add_area(ImagePyramid& pyramid, const Area& area, const Frame& fram
 
 }  // namespace
 
-Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, const LensState& lens,
-                             std::span<const Light> lights, const Frame& frame, const AddPointSpread& add_point,
-                             const Context& context) {
+Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, std::size_t area_count,
+                             const LensState& lens, std::span<const Light> lights, const Frame& frame,
+                             const AddPointSpread& add_point, const Context& context) {
   if (areas.empty()) return {};
   ImagePyramid pyramid(frame, Upsampling::Smooth);
-  const double max_products = std::max(kMaxProducts / static_cast<double>(areas.size()), kMinProducts);
+  const double max_products = std::max(kMaxProducts / static_cast<double>(area_count), kMinProducts);
   for (const ImagedLight& imaged : areas) {
     const Light& light = lights[imaged.light];
     Area area;

@@ -24,9 +24,10 @@ using AddPointSpread = std::function<Result<void>(Image& image, std::size_t ligh
                                                   Vec2 centre_px, const Rgb& flux)>;
 
 // Near a light's image the pixels are as fine as its outline needs; farther out they are as coarse as the blur allows,
-// with a smooth transition. Errors: those of `add_point`, Cancelled.
-[[nodiscard]] Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, const LensState& lens,
-                                           std::span<const Light> lights, const Frame& frame,
+// with a smooth transition. area_count: the lights of all images of the frame, which share the work that it may take.
+// Errors: those of `add_point`, Cancelled.
+[[nodiscard]] Result<void> add_area_spread(Image& image, std::span<const ImagedLight> areas, std::size_t area_count,
+                                           const LensState& lens, std::span<const Light> lights, const Frame& frame,
                                            const AddPointSpread& add_point, const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -27,6 +28,13 @@ constexpr std::size_t kWorthLayingOut = 3;  // lights, from which on the starbur
 constexpr double kMaxLaidOut = 8388608.0;  // pixels of a frame: 200 MB
 constexpr double kFarthest_diagonals = 4.0;  // lights farther from the frame's middle draw no starburst
 constexpr int kSamplesForDirt = 128;  // across a pupil that serves only to find the transmittance of dirt
+
+// The image that a light's own image is added to.
+using ImageOfLight = std::function<Image&(std::size_t light)>;
+
+struct LightImageTargets {
+  ImageOfLight starburst, glare;
+};
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
 
@@ -103,16 +111,18 @@ Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, s
 }
 
 // With many lights it is faster to lay the starburst out once.
-Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& starburst, const Context& context) {
+Result<void> draw_group(const ImageOfLight& image_of, const LightGroup& group, const Starburst& starburst,
+                        const Frame& frame, const Context& context) {
   StarburstImage starburst_image;
   const bool lays_out =
-      group.size() >= kWorthLayingOut && static_cast<double>(image.width) * image.height <= kMaxLaidOut;
+      group.size() >= kWorthLayingOut && static_cast<double>(frame.width) * frame.height <= kMaxLaidOut;
   if (lays_out) {
-    const auto laid = lay_out(starburst, image.width, image.height, context);
+    const auto laid = lay_out(starburst, frame.width, frame.height, context);
     if (!laid) return tl::unexpected(laid.error());
     starburst_image = *laid;
   }
   for (const ImagedLight& light : group) {
+    Image& image = image_of(light.light);
     if (lays_out)
       add_starburst(image, starburst_image, light.centre_px, light.flux, context);
     else
@@ -122,14 +132,14 @@ Result<void> draw_group(Image& image, const LightGroup& group, const Starburst& 
   return {};
 }
 
-Result<void> draw_groups(Image& image, const std::vector<LightGroup>& groups, const LensState& lens,
+Result<void> draw_groups(const ImageOfLight& image_of, const std::vector<LightGroup>& groups, const LensState& lens,
                          std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   Context quiet = context;
   quiet.progress = {};
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto starburst = starburst_of(groups[g], lens, lights, settings, quiet);
     if (!starburst) return tl::unexpected(starburst.error());
-    const auto drawn = draw_group(image, groups[g], *starburst, quiet);
+    const auto drawn = draw_group(image_of, groups[g], *starburst, settings.frame, quiet);
     if (!drawn) return drawn;
     if (context.progress) context.progress(static_cast<double>(g + 1) / static_cast<double>(groups.size()));
   }
@@ -153,14 +163,39 @@ void multiply_flux(std::vector<ImagedLight>& lights, double factor) {
     for (double& value : light.flux) value *= factor;
 }
 
+// Lights that go into one image, in their order.
+struct LightsOfImage {
+  Image* image;
+  std::vector<ImagedLight> lights;
+};
+
+std::vector<LightsOfImage> by_image(const std::vector<ImagedLight>& imaged, const ImageOfLight& image_of) {
+  std::vector<LightsOfImage> all;
+  for (const ImagedLight& light : imaged) {
+    Image* const image = &image_of(light.light);
+    const auto found = std::ranges::find(all, image, &LightsOfImage::image);
+    (found != all.end() ? *found : all.emplace_back(LightsOfImage{image, {}})).lights.push_back(light);
+  }
+  return all;
+}
+
+Result<void> spread_areas(const ImageOfLight& image_of, const std::vector<ImagedLight>& areas, const LensState& lens,
+                          std::span<const Light> lights, const Frame& frame, const AddPointSpread& add_point,
+                          const Context& context) {
+  for (const LightsOfImage& some : by_image(areas, image_of))
+    if (auto ok = add_area_spread(*some.image, some.lights, areas.size(), lens, lights, frame, add_point, context); !ok)
+      return ok;
+  return {};
+}
+
 // The flux that glare scatters is taken from the light's own image, so that both together sum to its value.
-Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState& lens, std::span<const Light> lights,
-                             const FrameSettings& settings, const Context& context) {
+Result<void> draw_starbursts(const ImageOfLight& image_of, SortedLights imaged, const LensState& lens,
+                             std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   const double gain = settings.starburst.gain * (1.0 - settings.glare.fraction);
   multiply_flux(imaged.points, gain);
   multiply_flux(imaged.areas, gain);
   const auto groups = group_lights(lights, imaged.points, settings.frame);
-  if (auto drawn = draw_groups(image, groups, lens, lights, settings, context); !drawn) return drawn;
+  if (auto drawn = draw_groups(image_of, groups, lens, lights, settings, context); !drawn) return drawn;
   Context quiet = context;
   quiet.progress = {};
   // The callback is called repeatedly for one light, with pixels of several pitches: its pattern is kept.
@@ -180,7 +215,7 @@ Result<void> draw_starbursts(Image& image, SortedLights imaged, const LensState&
     add_starburst(part, *starburst, centre_px, flux, quiet);
     return {};
   };
-  return add_area_spread(image, imaged.areas, lens, lights, settings.frame, add_point, quiet);
+  return spread_areas(image_of, imaged.areas, lens, lights, settings.frame, add_point, quiet);
 }
 
 // Removes the light that dirt blocks, which is not scattered.
@@ -198,28 +233,38 @@ Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& le
   return {};
 }
 
-Result<void> draw_glare(Image& image, std::vector<ImagedLight> imaged, const LensState& lens,
+Result<void> draw_glare(const ImageOfLight& image_of, std::vector<ImagedLight> imaged, const LensState& lens,
                         std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   if (lens.dirt.any())
     if (auto ok = take_dirt_off(imaged, lens, lights, settings.frame, context); !ok) return ok;
   multiply_flux(imaged, settings.glare.fraction);
   const double r0_mm = std::abs(lens.focal_length_mm) * std::tan(settings.glare.width_rad);
   const SortedLights sorted = sorted_by_size(imaged, lights);
-  add_glare(image, sorted.points, r0_mm / settings.frame.pixel_pitch_mm, context);
+  for (const LightsOfImage& some : by_image(sorted.points, image_of))
+    add_glare(*some.image, some.lights, r0_mm / settings.frame.pixel_pitch_mm, context);
   const auto add_point = [&](Image& part, std::size_t light, const PointSpread& spread, Vec2 centre_px,
                              const Rgb& flux) -> Result<void> {
     const ImagedLight point{light, centre_px, flux};
     add_glare(part, {&point, 1}, r0_mm / spread.pixel_pitch_mm, context);
     return {};
   };
-  return add_area_spread(image, sorted.areas, lens, lights, settings.frame, add_point, context);
+  return spread_areas(image_of, sorted.areas, lens, lights, settings.frame, add_point, context);
 }
 
-void add_except(Image& image, const Image& layer, const Image& left_out, const Context& context) {
+void remove_part(Image& image, const Image& left_out, const Context& context) {
+  if (image.pixels.empty()) return;
   parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) image.at(x, y, c) += (1.0F - left_out.at(x, y)) * layer.at(x, y, c);
+      for (int c = 0; c < image.channels; ++c) image.at(x, y, c) *= 1.0F - left_out.at(x, y);
+  });
+}
+
+void add_to(Image& image, const Image& other, const Context& context) {
+  parallel_for(static_cast<std::size_t>(image.height), context, [&](std::size_t row) {
+    const auto to = image.row(static_cast<int>(row));
+    const auto from = other.row(static_cast<int>(row));
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += from[k];
   });
 }
 
@@ -249,21 +294,21 @@ Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& se
   return {};
 }
 
-// Adds starbursts and glare to an image, with the times by phase.
-Result<void> draw_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
-                               std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+// Adds starbursts and glare to images, with the times by phase.
+Result<void> draw_into(const LightImageTargets& targets, RenderStatistics& statistics, const LensState& lens,
+                       std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   Clock::time_point start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
   const auto imaged = image_lights(lens, lights, settings, quiet);
   if (settings.starburst.on && !context.cancelled()) {
-    auto drawn = draw_starbursts(image, sorted_by_size(imaged, lights), lens, lights, settings, context);
+    auto drawn = draw_starbursts(targets.starburst, sorted_by_size(imaged, lights), lens, lights, settings, context);
     if (!drawn) return drawn;
     count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
   if (settings.glare.fraction > 0.0 && !context.cancelled()) {
-    if (auto drawn = draw_glare(image, imaged, lens, lights, settings, quiet); !drawn) return drawn;
+    if (auto drawn = draw_glare(targets.glare, imaged, lens, lights, settings, quiet); !drawn) return drawn;
     count_last(statistics, "glare", ms_since(start));
   }
   if (context.cancelled()) return interrupted();
@@ -290,16 +335,44 @@ Result<void> check_light_images(std::span<const Light> lights, const FrameSettin
   return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
 }
 
-Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
-                              const FrameSettings& settings, const Context& context) {
+Result<void> add_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
+                              std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
   const Image* const left_out = settings.starburst.left_out.get();
-  if (left_out == nullptr) return draw_light_images(flare.image, flare.statistics, lens, lights, settings, context);
-  Image layer(settings.frame.width, settings.frame.height);
-  auto drawn = draw_light_images(layer, flare.statistics, lens, lights, settings, context);
+  Image apart;
+  if (left_out != nullptr) apart = Image(settings.frame.width, settings.frame.height);
+  Image& drawn_into = left_out != nullptr ? apart : image;
+  const ImageOfLight same = [&](std::size_t) -> Image& { return drawn_into; };
+  auto drawn = draw_into({same, same}, statistics, lens, lights, settings, context);
+  if (!drawn || left_out == nullptr) return drawn;
   Context quiet = context;
   quiet.progress = {};
-  if (drawn) add_except(flare.image, layer, *left_out, quiet);
-  return drawn;
+  remove_part(apart, *left_out, quiet);
+  add_to(image, apart, quiet);
+  return {};
+}
+
+Result<LightImages> draw_light_images(RenderStatistics& statistics, const LensState& lens,
+                                      std::span<const Light> lights, const FrameSettings& settings,
+                                      std::span<const std::size_t> layer_of_light, const Context& context) {
+  const bool is_by_light = !layer_of_light.empty();
+  const std::size_t count = is_by_light ? *std::ranges::max_element(layer_of_light) + 1 : 1;
+  LightImages images{std::vector<Image>(count), std::vector<Image>(is_by_light ? 0 : 1)};
+  const auto target = [&](std::vector<Image>& layers) -> ImageOfLight {
+    return [&, of = &layers](std::size_t light) -> Image& {
+      Image& image = (*of)[is_by_light ? layer_of_light[light] : 0];
+      if (image.pixels.empty()) image = Image(settings.frame.width, settings.frame.height);
+      return image;
+    };
+  };
+  const LightImageTargets targets{target(images.starburst), target(is_by_light ? images.starburst : images.glare)};
+  if (auto drawn = draw_into(targets, statistics, lens, lights, settings, context); !drawn)
+    return tl::unexpected(drawn.error());
+  Context quiet = context;
+  quiet.progress = {};
+  if (const Image* const left_out = settings.starburst.left_out.get())
+    for (std::vector<Image>* const layers : {&images.starburst, &images.glare})
+      for (Image& image : *layers) remove_part(image, *left_out, quiet);
+  return images;
 }
 
 }  // namespace contrejour::inline internal

@@ -2,7 +2,9 @@
 // What is added to every method's picture: the lights' own images as diffraction spreads them, and their glare.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "contrejour/render.h"
 
@@ -11,9 +13,22 @@ namespace contrejour::inline internal {
 // Checks the options of starburst and glare, and the lights that they apply to. Errors: InvalidArgument.
 [[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings);
 
-// Adds starbursts and glare to the flare's image, and the phases "starburst" and "glare" to its times. Lights and frame
-// are those of a render that succeeded. Errors: Cancelled.
-[[nodiscard]] Result<void> add_light_images(Flare& flare, const LensState& lens, std::span<const Light> lights,
-                                            const FrameSettings& settings, const Context& context);
+// Adds starbursts and glare to an image, and the phases "starburst" and "glare" to its times. Lights and frame are
+// those of a render that succeeded. Errors: Cancelled.
+[[nodiscard]] Result<void> add_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
+                                            std::span<const Light> lights, const FrameSettings& settings,
+                                            const Context& context);
+
+// The same in images of their own, which are without pixels where nothing was drawn.
+struct LightImages {
+  std::vector<Image> starburst;  // one; by light, one for each layer, glare included
+  std::vector<Image> glare;      // one; by light none
+};
+
+// layer_of_light: by light, the layer of each; else empty.
+[[nodiscard]] Result<LightImages> draw_light_images(RenderStatistics& statistics, const LensState& lens,
+                                                    std::span<const Light> lights, const FrameSettings& settings,
+                                                    std::span<const std::size_t> layer_of_light,
+                                                    const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -14,6 +14,8 @@
 #include "render/planning/adaptive_passes.h"
 #include "render/planning/frame_plan.h"
 #include "render/planning/grid_side.h"
+#include "render/planning/layer_images.h"
+#include "render/planning/statistics.h"
 #include "render/pupils/pupil_search.h"
 #include "render/stop_patterns/stop_transmittances.h"
 #include "render/tiled/primitive_builder.h"
@@ -119,9 +121,11 @@ struct Job {
   IrisShape round = IrisShape(Iris{});  // for items with a stop pattern
 };
 
-void list_items(const FramePlan& plan, const StopTransmittances& stops, Job& job) {
+// Lists the items of a layer; without layers all.
+void list_items(const FramePlan& plan, std::size_t layer, const StopTransmittances& stops, Job& job) {
   const bool any = stops.on() || plan.dirt;
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
+    if (plan.layer_of(g, k) != layer) return;
     const AppliedAdjustment& adjustment = plan.adjustments[g];
     const PlannedLight& light = plan.lights[k];
     for (const PlannedPass& pass : passes) {
@@ -176,11 +180,9 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
 
 // Traces all items; the frame takes their primitives in order and draws whenever its buffer is full.
 bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
-  Context context = job.context;
-  if (context.progress) context.progress = [&](double done) { job.context.progress(kTracingProgress * done); };
   Workspaces workspaces(job.frame, job.options);
   return ordered_pipeline(
-      job.items.size(), context,
+      job.items.size(), job.context,
       [&](std::size_t k) {
         auto workspace = workspaces.take();
         TracedItem item = trace_item(job, k, *workspace);
@@ -191,6 +193,28 @@ bool trace_all(const Job& job, tiled::TiledFrame& frame, Counts& counts) {
         counts.add(item.counts);
         frame.add(item.buffer);
       });
+}
+
+// Draws the items of a job and adds its work to the statistics. Incomplete when cancelled.
+Image draw_items(const Job& job, RenderStatistics& stats) {
+  const auto start = Clock::now();
+  tiled::TiledFrame frame(job.frame, job.options, job.context, job.iris, job.gains, {}, job.stops);
+  Counts counts;
+  trace_all(job, frame, counts);
+  const double trace_ms = ms_since(start) - frame.draw_ms();
+  frame.draw();
+  RenderStatistics own;
+  own.method = "tiled";
+  own.rays = counts.rays;
+  own.surface_hits = counts.surface_hits;
+  own.primitives = counts.primitives;
+  // Search and tracing run in parallel on all threads: each is given its fraction of the elapsed time.
+  const double busy_ms = counts.search_ms + counts.trace_ms;
+  const double scale = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
+  own.time_ms = {{"search", counts.search_ms * scale}, {"trace", counts.trace_ms * scale}};
+  frame.report(own);
+  add(stats, own);
+  return frame.take_image();
 }
 
 }  // namespace
@@ -205,32 +229,28 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   const FramePlan& plan = *with_passes;
   StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
   if (!stops.prepare(plan, context)) return interrupted();
-  Job job{lens, pixels, options, context, plan.tables, IrisShape(lens.iris), {}, {}};
-  list_items(plan, stops, job);
-
-  const auto traced = Clock::now();
-  tiled::TiledFrame frame(pixels, options, context, job.iris, job.gains, {}, job.stops);
-  Counts counts;
-  trace_all(job, frame, counts);
-  const double trace_ms = ms_since(traced) - frame.draw_ms();
-  frame.draw();
-  if (context.cancelled()) return interrupted();
-  if (context.progress) context.progress(1.0);
-
+  const std::size_t layer_count = plan.layers ? plan.layers->count() : 1;
+  LayerImages images(plan, pixels);
   DrawnFlare flare;
   RenderStatistics& stats = flare.statistics;
+  for (std::size_t layer = 0; layer < layer_count; ++layer) {
+    Context part = context;
+    if (context.progress)
+      part.progress = [&](double done) {
+        context.progress(kTracingProgress * (static_cast<double>(layer) + done) / static_cast<double>(layer_count));
+      };
+    Job job{lens, pixels, options, part, plan.tables, IrisShape(lens.iris), {}, {}};
+    list_items(plan, layer, stops, job);
+    if (plan.layers && job.items.empty()) continue;
+    images.set(layer, draw_items(job, stats));
+    if (context.cancelled()) return interrupted();
+  }
+  if (context.progress) context.progress(1.0);
+
   stats.method = "tiled";
-  stats.rays = counts.rays;
-  stats.surface_hits = counts.surface_hits;
-  stats.primitives = counts.primitives;
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
-  // Search and tracing run in parallel on all threads: each is given its fraction of the elapsed time.
-  const double busy_ms = counts.search_ms + counts.trace_ms;
-  const double scale = busy_ms > 0.0 ? trace_ms / busy_ms : 0.0;
-  stats.time_ms = {{"search", counts.search_ms * scale}, {"trace", counts.trace_ms * scale}};
-  frame.report(stats);
-  flare.image = frame.take_image();
+  images.move_to(flare);
   stats.time_ms.emplace_back("total", ms_since(start));
   return flare;
 }

@@ -81,11 +81,11 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
     RenderCache cache;
     auto flare = render_adaptive({lens, part, settings, cache}, {}, {});
     REQUIRE(flare.has_value());
-    return std::move(*flare);
+    return std::move(flare->picture);
   };
   int smaller = 0, dark = 0;
   for (const Ghost& ghost : plan->ghosts) {
-    const DrawnFlare whole = drawn({ghost}, std::nullopt), part = drawn({ghost}, 5);
+    const DrawnImage whole = drawn({ghost}, std::nullopt), part = drawn({ghost}, 5);
     REQUIRE((whole.image.width == 640 && whole.image.height == 360));
     CHECK((whole.left == 0 && whole.top == 0));
     smaller += part.image.pixels.size() < whole.image.pixels.size() ? 1 : 0;
