@@ -12,6 +12,7 @@
 
 #include "openfx/engine_pool.h"
 #include "openfx/host.h"
+#include "openfx/host_abort.h"
 #include "openfx/parameter_list.h"
 
 namespace contrejour::openfx {
@@ -27,6 +28,7 @@ struct LoadedPlugin {
   Host host;
   std::array<std::vector<ParamSpec>, 3> parameters;  // by context
   EnginePool engines;
+  AbortableRuns runs;  // behind the engines, which they use until they end
 
   [[nodiscard]] const std::vector<ParamSpec>& parameters_in(EffectContext context) const {
     return parameters[static_cast<std::size_t>(context)];

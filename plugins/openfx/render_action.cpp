@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "openfx/actions.h"
-#include "openfx/host_abort.h"
 #include "openfx/host_image.h"
 #include "openfx/read_parameters.h"
 #include "openfx/regions.h"
@@ -12,19 +11,21 @@
 namespace contrejour::openfx {
 namespace {
 
-// An engine of the pool, given back at the end.
-class BorrowedEngine {
- public:
-  explicit BorrowedEngine(Instance& instance)
-      : instance_(instance), engine_(instance.loaded().engines.take(&instance)) {}
-  ~BorrowedEngine() { instance_.loaded().engines.give_back(std::move(engine_), &instance_); }
-  BorrowedEngine(const BorrowedEngine&) = delete;
-  BorrowedEngine& operator=(const BorrowedEngine&) = delete;
-  FlareEngine* operator->() const { return engine_.get(); }
+// A render that owns what it needs, because it may outlast the host's interest in it. The plug-in waits for it before
+// it is unloaded.
+struct FlareJob {
+  EnginePool& engines;
+  const void* instance;  // for the pool: never looked into
+  FlareRequest request;
+  Result<std::shared_ptr<const Image>> flare = nullptr;
 
- private:
-  Instance& instance_;
-  std::unique_ptr<FlareEngine> engine_;
+  void run(const std::atomic<bool>& cancel) {
+    auto engine = engines.take(instance);
+    Context context;
+    context.cancel = &cancel;
+    flare = engine->render(std::move(request), context);
+    engines.give_back(std::move(engine), instance);
+  }
 };
 
 double positive_or(std::optional<double> value, double otherwise) {
@@ -83,16 +84,12 @@ FlareRequest request_of(const Instance& instance, const Properties& in, const Re
 }
 
 Result<std::shared_ptr<const Image>> flare_of(Instance& instance, FlareRequest request) {
-  Result<std::shared_ptr<const Image>> flare;
-  const BorrowedEngine engine(instance);
-  const ImageEffectSuite& effects = *instance.host().effects;
+  LoadedPlugin& loaded = instance.loaded();
+  const auto job = std::make_shared<FlareJob>(FlareJob{loaded.engines, &instance, std::move(request)});
+  const ImageEffectSuite& effects = *loaded.host.effects;
   const auto host_aborts = [&] { return effects.abort != nullptr && effects.abort(instance.effect()) != 0; };
-  run_abortable(host_aborts, [&](const std::atomic<bool>& cancel) {
-    Context context;
-    context.cancel = &cancel;
-    flare = engine->render(std::move(request), context);
-  });
-  return flare;
+  if (loaded.runs.run(host_aborts, [job](const std::atomic<bool>& cancel) { job->run(cancel); })) return job->flare;
+  return failure(ErrorCode::Cancelled, "the host aborted");
 }
 
 void pass_through(const RenderTask& frame) {

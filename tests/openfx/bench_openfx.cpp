@@ -113,7 +113,7 @@ void measure_speed(const TestHost& host, const std::string& lens, int frames, bo
 void measure_abort(const TestHost& host, const std::string& lens, int rounds) {
   const auto shot = make_shot(host, context::kGenerator, 1920, 1080, lens);
   std::mt19937 random(1);
-  std::vector<double> latencies;
+  std::vector<double> latencies, processor;
   for (int round = 0; round < rounds; ++round) {
     const char* const methods[] = {"adaptive", "bundle", "tiled", "reference"};
     shot->effect->set_text("method", methods[round % 4]);
@@ -124,19 +124,30 @@ void measure_abort(const TestHost& host, const std::string& lens, int rounds) {
     const double wanted_ms = static_cast<double>(random() % 400);
     std::atomic<bool> is_asked = false;
     Clock::time_point asked;
+    double processor_when_asked = 0.0;
     shot->effect->aborts = [&] {
       if (milliseconds_since(start) < wanted_ms) return 0;
-      if (!is_asked.exchange(true)) asked = Clock::now();
+      if (!is_asked.exchange(true)) {
+        asked = Clock::now();
+        processor_when_asked = processor_ms();
+      }
       return 1;
     };
     static_cast<void>(host.render(*shot->effect, {.window = shot->output.bounds}));
-    if (is_asked) latencies.push_back(milliseconds_since(asked));
+    if (!is_asked) continue;
+    latencies.push_back(milliseconds_since(asked));
+    processor.push_back(processor_ms() - processor_when_asked);
+    if (processor.back() > 100.0)
+      std::printf("round %d, %s: %.0f ms, %.0f ms of processor time\n", round, methods[round % 4], latencies.back(),
+                  processor.back());
   }
   std::ranges::sort(latencies);
-  if (!latencies.empty())
-    std::printf("%s, %zu aborted frames of 1920 x 1080: median %.0f ms, 95 per cent within %.0f ms, worst %.0f ms\n",
-                lens.c_str(), latencies.size(), median(latencies), latencies[latencies.size() * 95 / 100],
-                latencies.back());
+  std::ranges::sort(processor);
+  for (const auto& [what, times] : {std::pair("waited", &latencies), std::pair("processor time", &processor)})
+    if (!times->empty())
+      std::printf(
+          "%s, %zu aborted frames of 1920 x 1080, %s: median %.0f ms, 95 per cent within %.0f ms, worst %.0f ms\n",
+          lens.c_str(), times->size(), what, median(*times), (*times)[times->size() * 95 / 100], times->back());
   host.destroy(*shot->effect);
 }
 

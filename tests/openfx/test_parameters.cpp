@@ -175,6 +175,7 @@ TEST_CASE("openfx: a look holds beneath the parameters, and its button loads it 
   CHECK(scene.effect().param("blades").numbers[0] == 12.0);
   CHECK(scene.effect().param("starburst").numbers[0] == 1.0);
   CHECK(scene.effect().param("fnumber").numbers[0] == 11.0);
+  scene.effect().set_text("wavelengths", kWavelengths);
   scene.effect().set("blades", {6.0});
   REQUIRE(scene.render() == status::kOk);
   CHECK(differing_samples(scene.output, expected) == 0);

@@ -304,13 +304,13 @@ TEST_CASE("openfx: the picture of the command line, bit for bit") {
   const test::ScratchFolder folder;
   const auto file = folder / "flare.exr";
   const std::string command =
-      fmt::format("{} render --preset sixties-normal --light-at {} --size {}x{} -o {} > /dev/null", CONTREJOUR_CLI,
-                  kLightAt, kWidth, kHeight, file.string());
+      fmt::format("{} render --preset bare-triplet --light-at {} --wavelengths {} --size {}x{} -o {} > /dev/null",
+                  CONTREJOUR_CLI, kLightAt, kWavelengths, kWidth, kHeight, file.string());
   REQUIRE(std::system(command.c_str()) == 0);
   const auto picture = read_picture(file);
   REQUIRE(picture.has_value());
   Scene scene(host, context::kGenerator);
-  scene.effect().choose("look", "sixties-normal");
+  scene.effect().choose("look", "bare-triplet");
   REQUIRE(scene.render() == status::kOk);
   CHECK(sum_of(scene.output) > 0.0);
   CHECK(differing_samples(scene.output, picture->rgb) == 0);
