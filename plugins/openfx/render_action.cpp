@@ -116,7 +116,8 @@ Status render_frame(Instance& instance, const Properties& in, const RenderTask& 
     compose(composition, frame.window, frame.output);
     return status::kOk;
   }
-  if (flare.error().code != ErrorCode::Cancelled) instance.show_fault(flare.error().to_string());
+  if (flare.error().code == ErrorCode::Cancelled) return status::kOk;  // the host throws the frame away
+  instance.show_fault(flare.error().to_string());
   pass_through(frame);
   return status::kOk;
 }

@@ -123,7 +123,7 @@ TEST_CASE("openfx: menus have every bundled lens and look, and nothing else") {
     CHECK(params::find_preset(looks.get<std::string>(name::kChoiceOption, k)).has_value());
 }
 
-TEST_CASE("openfx: an untouched instance gives the library's defaults, and a touched one its values") {
+TEST_CASE("openfx: an untouched instance gives the library's defaults, and a touched one its values [slow]") {
   const TestHost host;
   Scene scene(host, context::kGenerator);
   scene.effect().choose("lens", "tessar");
@@ -153,7 +153,7 @@ TEST_CASE("openfx: an untouched instance gives the library's defaults, and a tou
   CHECK(differing_samples(scene.output, flare->image) == 0);
 }
 
-TEST_CASE("openfx: a look holds beneath the parameters, and its button loads it into them") {
+TEST_CASE("openfx: a look holds beneath the parameters, and its button loads it into them [slow]") {
   const TestHost host;
   Scene scene(host, context::kGenerator);
   scene.effect().choose("look", "old-portrait");

@@ -146,7 +146,7 @@ TEST_CASE("openfx: the same pixels whatever the render windows, and none outside
   CHECK_FALSE(std::isnan(scene.output.at(19, 19, 0)));
 }
 
-TEST_CASE("openfx: a kept frame is not shown for another source, time or parameter") {
+TEST_CASE("openfx: a kept frame is not shown for another source, time or parameter [slow]") {
   const TestHost host;
   Scene scene(host, context::kFilter);
   paint_street(scene.source);
@@ -203,7 +203,7 @@ TEST_CASE("openfx: an aborted render ends soon and leaves the plug-in usable (th
   CHECK(differing_samples(scene.output, library_flare(values_of({{"light-at", kLightAt}}), "heliar")) == 0);
 }
 
-TEST_CASE("openfx: frames in any order, with keys and with a file of lights") {
+TEST_CASE("openfx: frames in any order, with keys and with a file of lights [slow]") {
   const TestHost host;
   Scene scene(host, context::kGenerator);
   scene.effect().param("light1Position").keys = {{1.0, {0.2, 0.3}}, {5.0, {kLightX, kLightY}}};
@@ -227,7 +227,7 @@ TEST_CASE("openfx: frames in any order, with keys and with a file of lights") {
   CHECK(scene.effect().message.empty());
 }
 
-TEST_CASE("openfx: at a smaller render scale the picture is as bright, and wider pixels have the same sum") {
+TEST_CASE("openfx: at a smaller render scale the picture is as bright, and wider pixels have the same sum [slow]") {
   const TestHost host;
   Scene scene(host, context::kGenerator);
   REQUIRE(scene.render() == status::kOk);
@@ -243,7 +243,7 @@ TEST_CASE("openfx: at a smaller render scale the picture is as bright, and wider
   CHECK(sum_of(scene.output) == doctest::Approx(whole).epsilon(0.05));
 }
 
-TEST_CASE("openfx: a draft while a parameter is dragged, if wanted") {
+TEST_CASE("openfx: a draft while a parameter is dragged, if wanted [slow]") {
   const TestHost host;
   Scene scene(host, context::kGenerator);
   REQUIRE(scene.render() == status::kOk);

@@ -25,7 +25,7 @@ TEST_CASE("openfx: each curve and its inverse") {
             doctest::Approx(linear).epsilon(1e-4));
 }
 
-TEST_CASE("openfx: light adds in scene-linear, whatever the pixels are coded as") {
+TEST_CASE("openfx: light adds in scene-linear, whatever the pixels are coded as [slow]") {
   const TestHost host;
   Scene scene(host, context::kFilter);
   scene.effect().set("light1On", {1.0});
