@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the plug-in does for each action of the standard. Functions return the standard's status; exceptions are caught
+// The plug-in's part in each action of the standard. Functions return the standard's status; exceptions are caught
 // at the entry point. Thread-safety: render, identity and regions on any threads at once; the others on one.
 #pragma once
 

@@ -30,7 +30,7 @@ bool AbortableRuns::run(const std::function<bool()>& host_aborts, Work work) {
   return !*cancel;
 }
 
-// Where a user drags on and on, cancelled work must not pile up.
+// Cancelled work must not pile up while a user drags on and on.
 void AbortableRuns::leave(Run run) {
   std::vector<Run> ended;  // whose ends are waited for without the lock
   const std::lock_guard lock(mutex_);

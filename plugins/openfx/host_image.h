@@ -52,7 +52,7 @@ class HostImage {
 // The part of a source in a region (rows from the top, y = 0 between the host's rows -1 and 0), decoded; 0 outside.
 [[nodiscard]] Image decoded_region(const HostImage& source, const PixelWindow& region, TransferCurve curve);
 
-// What is written to each pixel of the output.
+// The pictures that make up the output, and how.
 struct Composition {
   const HostImage* source = nullptr;  // null: black
   const Image* flare = nullptr;  // of the region; null: none

@@ -180,7 +180,7 @@ inline constexpr const char *kLoad = "OfxActionLoad", *kUnload = "OfxActionUnloa
                             *kGetRegionOfDefinition = "OfxImageEffectActionGetRegionOfDefinition",
                             *kGetRegionsOfInterest = "OfxImageEffectActionGetRegionsOfInterest",
                             *kGetClipPreferences = "OfxImageEffectActionGetClipPreferences";
-// Of interacts, which have kCreateInstance and kDestroyInstance, too.
+// Actions of interacts, which have kCreateInstance and kDestroyInstance, too.
 inline constexpr const char *kDraw = "OfxInteractActionDraw", *kPenMotion = "OfxInteractActionPenMotion",
                             *kPenDown = "OfxInteractActionPenDown", *kPenUp = "OfxInteractActionPenUp";
 }  // namespace action
@@ -201,7 +201,7 @@ inline constexpr const char *kName = "OfxPropName", *kLabel = "OfxPropLabel", *k
                             *kVersionLabel = "OfxPropVersionLabel", *kPluginDescription = "OfxPropPluginDescription",
                             *kType = "OfxPropType", *kTime = "OfxPropTime", *kInstanceData = "OfxPropInstanceData",
                             *kChangeReason = "OfxPropChangeReason";
-// Of an effect, its descriptor, and the arguments of actions.
+// Properties of an effect, its descriptor, and the arguments of actions.
 inline constexpr const char
     *kContext = "OfxImageEffectPropContext",
     *kSupportedContexts = "OfxImageEffectPropSupportedContexts",
@@ -225,12 +225,12 @@ inline constexpr const char
     *kRenderQualityDraft = "OfxImageEffectPropRenderQualityDraft",
     *kRegionOfDefinition = "OfxImageEffectPropRegionOfDefinition",
     *kRegionOfInterest = "OfxImageEffectPropRegionOfInterest", *kFrameVarying = "OfxImageEffectFrameVarying";
-// Of interacts.
+// Properties of interacts.
 inline constexpr const char *kOverlayV1 = "OfxImageEffectPluginPropOverlayInteractV1",
                             *kOverlayV2 = "OfxImageEffectPluginPropOverlayInteractV2",
                             *kEffectInstance = "OfxPropEffectInstance", *kPixelScale = "OfxInteractPropPixelScale",
                             *kPenPosition = "OfxInteractPropPenPosition", *kDrawContext = "OfxInteractPropDrawContext";
-// Of clips and images.
+// Properties of clips and images.
 inline constexpr const char *kSupportedComponents = "OfxImageEffectPropSupportedComponents",
                             *kClipConnected = "OfxImageClipPropConnected", *kClipOptional = "OfxImageClipPropOptional",
                             *kClipFieldExtraction = "OfxImageClipPropFieldExtraction",
@@ -239,7 +239,7 @@ inline constexpr const char *kSupportedComponents = "OfxImageEffectPropSupported
                             *kPixelDepth = "OfxImageEffectPropPixelDepth", *kImageData = "OfxImagePropData",
                             *kImageBounds = "OfxImagePropBounds", *kImageRowBytes = "OfxImagePropRowBytes",
                             *kImagePixelAspectRatio = "OfxImagePropPixelAspectRatio";
-// Of parameters.
+// Properties of parameters.
 inline constexpr const char *kDefault = "OfxParamPropDefault", *kMin = "OfxParamPropMin", *kMax = "OfxParamPropMax",
                             *kDisplayMin = "OfxParamPropDisplayMin", *kDisplayMax = "OfxParamPropDisplayMax",
                             *kHint = "OfxParamPropHint", *kScriptName = "OfxParamPropScriptName",

@@ -20,7 +20,7 @@ class Reader {
  public:
   Reader(const Instance& instance, Time time) : instance_(instance), suite_(*instance.host().parameters), time_(time) {}
 
-  // What a host cannot say is at its default.
+  // A value that the host cannot give is at its default.
   [[nodiscard]] Numbers numbers(std::size_t k) const {
     const ParamSpec& spec = instance_.specs()[k];
     Numbers values{};

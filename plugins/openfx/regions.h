@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a frame and its pixels lie. A host's canonical coordinates have y upwards and square pixels in full resolution;
-// its pixels have a scale and an aspect; the library's pixels are the same with rows from the top.
+// The rectangles of a frame and its pixels. A host's canonical coordinates have y upwards and square pixels in full
+// resolution; its pixels have a scale and an aspect; the library's pixels are the same with rows from the top.
 // Thread-safety: pure functions of an instance.
 #pragma once
 
@@ -25,7 +25,7 @@ struct PixelScale {
 // The rectangle that the lens's sensor sees: the project's, or the source's.
 [[nodiscard]] RectD sensor_frame(const Instance& instance, Time time, SensorFrame choice);
 
-// Where the effect gives pixels: the sensor's frame and the source.
+// The rectangle in which the effect gives pixels: the sensor's frame and the source.
 [[nodiscard]] RectD output_region(const Instance& instance, Time time, SensorFrame choice);
 
 // The pixels that a rectangle touches, rows from the top: y = 0 lies above the host's row -1.

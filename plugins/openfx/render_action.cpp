@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contrejour/expert/parameter_text.h"
 #include "openfx/actions.h"
 #include "openfx/host_image.h"
 #include "openfx/read_parameters.h"
@@ -73,7 +74,9 @@ FlareRequest request_of(const Instance& instance, const Properties& in, const Re
   request.shows_detected_lights = read.output == OutputPicture::DetectedLights;
   request.is_part_of_frame = !contains(frame.window, request.region, frame.output.bounds());
   request.threads = instance.host().granted_threads();
-  if (frame.source != nullptr && read.own.is_on("detect"))
+  // A larger region is refused by the library.
+  const double pixels = static_cast<double>(request.region.width) * request.region.height;
+  if (frame.source != nullptr && read.own.is_on("detect") && pixels <= params::kMaxPixels)
     request.source = decoded_region(*frame.source, request.region, read.transfer);
   request.own = std::move(read.own);
   request.lights = std::move(read.lights);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the standard asks of a plug-in, and what hosts get wrong: actions in any order, suites and properties that are
+// The standard's demands on a plug-in, and what hosts get wrong: actions in any order, suites and properties that are
 // missing.
 #include <doctest/doctest.h>
 
