@@ -33,7 +33,7 @@ class AbortableRuns {
   };
   void leave(Run run);
 
-  static constexpr std::size_t kMostEnding = 2;
+  static constexpr std::size_t kMostEnding = 4;
   std::mutex mutex_;
   std::vector<Run> ending_;
 };
