@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Hold every #include in include/, src/, apps/ and python/ to the layers of docs/ARCHITECTURE.md.
+"""Hold every #include in include/, src/, apps/, plugins/ and python/ to the layers of docs/ARCHITECTURE.md.
 
     check_layers.py [ROOT]     exit 0: all allowed; 1: each forbidden include as file:line; 2: usage
 
@@ -49,6 +49,7 @@ FOLDERS = {
     "src/c_interface": "c_interface",
     "src/gpu": "gpu",
     "apps": "apps",
+    "plugins": "apps",
     "python": "apps",
 }
 RENDERERS = "src/render"
@@ -200,7 +201,7 @@ MAY_INCLUDE = {
 # Libraries that stay in one place: pattern of the include, folders that may name it, why.
 FENCED = [
     (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/gpu", "apps/studio"), "graphics stays in gpu and the studio"),
-    (r"GLFW/|imgui|ofx", ("apps",), "windows and hosts belong to apps"),
+    (r"GLFW/|imgui|ofx", ("apps", "plugins"), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
     (r"nlohmann/", ("src/base", "apps", "tests"), "one wrapper that keeps its exceptions in"),
     (r"pugixml", ("src/optics/lens_files",), "one reader of XML"),
@@ -257,7 +258,7 @@ def find_ours(root, source, name):
     """Path, relative to the root, of the file of ours that an include names; None for a library's."""
     if name.startswith("contrejour/"):
         return "include/" + name
-    for base in (source.rpartition("/")[0], "src", "apps", "include"):
+    for base in (source.rpartition("/")[0], "src", "apps", "plugins", "include"):
         path = pathlib.PurePosixPath(base) / name
         parts = []
         for part in path.parts:
@@ -268,7 +269,7 @@ def find_ours(root, source, name):
         candidate = "/".join(parts)
         if (root / candidate).is_file():
             return candidate
-        if base in ("src", "apps") and layer_of(candidate) not in (None, "apps"):
+        if base in ("src", "apps", "plugins") and layer_of(candidate) not in (None, "apps"):
             return candidate  # a file of a layer of ours that is generated, or missing
     return None
 
@@ -321,7 +322,7 @@ def check_file(root, source):
 def check_tree(root):
     """Complaints about all files under root, as file:line: text, and how many files were read."""
     complaints, count = [], 0
-    for top in ("include", "src", "apps", "python"):
+    for top in ("include", "src", "apps", "plugins", "python"):
         for path in sorted((root / top).rglob("*")):
             if path.suffix not in SUFFIXES or not path.is_file():
                 continue

@@ -8,7 +8,7 @@ import pathlib
 import sys
 
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
-FOLDERS = ("include", "src", "apps", "tests", "bench", "fuzz", "tools", "cmake", "python", "examples")
+FOLDERS = ("include", "src", "apps", "plugins", "tests", "bench", "fuzz", "tools", "cmake", "python", "examples")
 SUFFIXES = {".h", ".c", ".cpp", ".py", ".pyi", ".cmake"}
 
 
