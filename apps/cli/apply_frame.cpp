@@ -64,10 +64,10 @@ Result<FlaredPhotograph> render_in_layers(PlannedPhotograph&& planned, SourceRen
 }
 
 Result<void> write_flare(const FlaredPhotograph& flared, const Context& context) {
-  const auto& [options, lens, outputs, files, picture, plan] = flared.planned;
-  Picture alone = aligned_picture(flared.flare.image, picture, plan);
-  if (options.layers.on()) add_layers(alone, flared.layers, options.layers);
-  return write_picture(*files.flare_only, alone, context);
+  const PlannedPhotograph& planned = flared.planned;
+  Picture alone = aligned_picture(flared.flare.image, planned.picture, planned.plan);
+  if (planned.options.layers.on()) add_layers(alone, flared.layers, planned.options.layers);
+  return write_picture(*planned.files.flare_only, alone, context);
 }
 
 }  // namespace
