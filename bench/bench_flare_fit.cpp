@@ -237,7 +237,8 @@ int run(const std::string& name, int stations, int raw_width) {
     std::printf("%s: %s\n", name.c_str(), capture.error().to_string().c_str());
     return 1;
   }
-  const Result<SweepGeometry> geometry = fit_geometry(capture->lights);
+  const Result<SweepGeometry> geometry =
+      fit_geometry(capture->lights, expected_centre(capture->settings.width / 2, capture->settings.height / 2));
   if (!geometry) return 1;
   const double light = capture->settings.light_rate / 4.0;  // over pixels of half the raw size
   FlareSweep sweep;
@@ -254,10 +255,11 @@ int run(const std::string& name, int stations, int raw_width) {
   const Vec2 centre{0.25 * capture->settings.width + 0.5 * capture->settings.centre_offset_px.x,
                     0.25 * capture->settings.height + 0.5 * capture->settings.centre_offset_px.y};
   std::printf(
-      "%s, %d stations, %d px: %.0f s, %zu ghosts, %.0f image evaluations, NRMSE %.3f, centre off by %.2f, %.2f px"
+      "%s, %d stations, %d px: %.0f s, %zu ghosts, %.0f image evaluations, NRMSE %.3f, held out %.3f, centre off by "
+      "%.2f, %.2f px"
       " (from the light alone %.2f)\n",
       name.c_str(), stations, capture->pictures[0].rate.width, seconds_now() - start, fit->flare.ghosts.size(),
-      fit->image_evaluations, fit->nrmse, fit->centre_px.x - centre.x, fit->centre_px.y - centre.y,
+      fit->image_evaluations, fit->nrmse, fit->held_out_nrmse, fit->centre_px.x - centre.x, fit->centre_px.y - centre.y,
       geometry->centre_px.x - centre.x);
   const Image& first = capture->pictures[0].rate;
   const Comparison at = comparison_of(lens, first.width, first.height, fit->flare.s_max);

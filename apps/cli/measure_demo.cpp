@@ -41,7 +41,7 @@ constexpr const char* kDemoExamples =
     "Examples:\n"
     "  contrejour measure demo -o demo\n"
     "  contrejour measure demo -o demo --lens heliar --size 1200 --stations 61\n"
-    "  contrejour measure demo -o quick --size 160 --stations 11 --max-ghosts 1 --no-comparison";
+    "  contrejour measure demo -o quick --size 160 --stations 11 --max-ghosts 1 --max-small-ghosts 0 --no-comparison";
 
 constexpr double kPartOfField = 0.95;  // of the largest angle at which the light is in the picture
 constexpr double kDrawnPart = 0.55;    // of that: the angle of the picture that is drawn at the end
@@ -258,7 +258,9 @@ void add_measure_demo(CLI::App& measure, Action& action) {
   command->add_option("--lens", options->lens, "the lens that is measured (default: tessar)")->option_text("LENS");
   add_number(*command, "--size", options->size, 96, 8000, "width of the simulated sensor in pixels");
   add_number(*command, "--stations", options->stations, 5, 601, "angles, evenly spaced");
-  add_number(*command, "--max-ghosts", options->fit.max_ghosts, 1, 200, "ghosts to look for");
+  add_number(*command, "--max-ghosts", options->fit.max_ghosts, 1, 200, "ghosts to look for by their edges");
+  add_number(*command, "--max-small-ghosts", options->fit.max_small_ghosts, 0, 200,
+             "ghosts of a few pixels to look for besides");
   add_number(*command, "--threads", options->threads, 0, 1024, "threads; 0: one for each core");
   command->add_flag("--no-comparison", options->no_comparison, "skip the comparison with walch2018's descent");
   command->add_flag("--json", options->json, "print JSON");

@@ -119,7 +119,9 @@ Result<int> run_fit(const FitRequest& request, bool json) {
 }
 
 void add_fit_numbers(CLI::App& command, FitRequest& request) {
-  add_number(command, "--max-ghosts", request.fit.max_ghosts, 1, 200, "ghosts to look for");
+  add_number(command, "--max-ghosts", request.fit.max_ghosts, 1, 200, "ghosts to look for by their edges");
+  add_number(command, "--max-small-ghosts", request.fit.max_small_ghosts, 0, 200,
+             "ghosts of a few pixels to look for besides");
   add_number(command, "--width", request.fit.max_width, 32, kWidestFitted, "pixels that pictures are reduced to");
   add_number(command, "--held-out", request.fit.held_out_every, 0, 1000,
              "leave every N-th station out of the fit, to test it; 0: fit all");

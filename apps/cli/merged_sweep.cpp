@@ -57,6 +57,7 @@ Result<MergedSweep> open_merged(const std::string& folder) {
     merged.files.push_back(file);
     merged.angles_rad.push_back(facts->angle_deg * params::kDegree_rad);
     merged.direct.push_back(facts->direct);
+    merged.expected = expected_centre(facts->width, facts->height);
   }
   if (merged.files.size() < kFewestMerged) {
     return failure(ErrorCode::InvalidArgument,
@@ -79,7 +80,7 @@ Result<SweepGeometry> geometry_of(const MergedSweep& merged, const std::string& 
                                lights.size(), kFewestMerged),
                    {folder, 0, 0});
   }
-  auto geometry = fit_geometry(lights);
+  auto geometry = fit_geometry(lights, merged.expected);
   if (!geometry) return failure(geometry.error().code, geometry.error().message, {folder, 0, 0});
   return geometry;
 }

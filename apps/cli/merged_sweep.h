@@ -14,6 +14,7 @@ struct MergedSweep {
   std::vector<std::filesystem::path> files;  // of the stations, by their numbers
   std::vector<double> angles_rad;
   std::vector<std::optional<DirectFlux>> direct;
+  ExpectedCentre expected;  // of the pictures
   std::vector<std::string> warnings;  // files that are left out because they cannot be read
 
   // Reads a station's pixels when the fit asks for them.

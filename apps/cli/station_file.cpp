@@ -89,7 +89,7 @@ Result<StationFacts> read_station_facts(const std::filesystem::path& file) {
   if (!angle_deg)
     return failure(ErrorCode::Parse, "this is not a merged station; remove it or name another folder",
                    {file.string(), 0, 0});
-  StationFacts facts{*angle_deg, {}};
+  StationFacts facts{*angle_deg, picture->rgb.width, picture->rgb.height, {}};
   const auto direct = params::parse_reals(text_attribute(*picture, kDirectAttribute).value_or(""), 5);
   if (direct) facts.direct = DirectFlux{{(*direct)[0], (*direct)[1]}, {(*direct)[2], (*direct)[3], (*direct)[4]}};
   return facts;

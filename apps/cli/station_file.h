@@ -16,6 +16,7 @@ namespace contrejour::cli {
 // that write_station() did not write.
 struct StationFacts {
   double angle_deg = 0;
+  int width = 0, height = 0;
   std::optional<DirectFlux> direct;
 };
 [[nodiscard]] Result<StationFacts> read_station_facts(const std::filesystem::path& file);

@@ -340,7 +340,8 @@ class Fit(ProgramTest):
         cls.addClassCleanup(cls.holder.cleanup)
         cls.demo = pathlib.Path(cls.holder.name) / "demo"
         done = subprocess.run([PROGRAM, "measure", "demo", "-o", cls.demo, "--size", "160", "--stations", "11",
-                               "--max-ghosts", "1", "--no-comparison", "--json"], capture_output=True, timeout=300)
+                               "--max-ghosts", "1", "--max-small-ghosts", "0", "--no-comparison", "--json"],
+                              capture_output=True, timeout=300)
         assert done.returncode == 0, done.stderr.decode()
         cls.found = json.loads(done.stdout)
 
@@ -371,7 +372,7 @@ class Fit(ProgramTest):
         self.assertIn("a demo is here already", self.error_of("measure", "demo", "-o", self.demo, code=1))
 
     def test_fit_is_the_same_for_any_number_of_threads_and_is_drawn(self):
-        fit = ["measure", "fit", self.demo / "merged", "--max-ghosts", "1", "--name", "mine"]
+        fit = ["measure", "fit", self.demo / "merged", "--max-ghosts", "1", "--max-small-ghosts", "1", "--name", "mine"]
         self.run_program(*fit, "-o", "a.flare.toml", "--threads", "1", "--csv", "a.csv", "--f-number", "4.5", "--iso",
                          "100", "--time", "1")
         self.run_program(*fit, "-o", "b.flare.toml", "--threads", "3", "--csv", "b.csv", "--f-number", "4.5", "--iso",
@@ -391,7 +392,8 @@ class Fit(ProgramTest):
         merged = self.folder / "merged"
         shutil.copytree(self.demo / "merged", merged)
         (merged / "station-0003.exr").write_bytes(b"v/1\1 broken")
-        done = self.run_program("measure", "fit", merged, "-o", "a.flare.toml", "--max-ghosts", "1", "--json")
+        done = self.run_program("measure", "fit", merged, "-o", "a.flare.toml", "--max-ghosts", "1", "--max-small-ghosts",
+                                "0", "--json")
         self.assertIn("station-0003.exr", done.stderr.decode())
         self.assertEqual(len(json.loads(done.stdout)["stations"]), 10)
 

@@ -59,6 +59,7 @@ const Capture& tessar() {
 FlareFitOptions quick() {
   FlareFitOptions options;
   options.max_ghosts = 1;
+  options.max_small_ghosts = 0;
   return options;
 }
 

@@ -52,6 +52,30 @@ TEST_CASE("sweep geometry: the stated error of the centre covers what is found")
   CHECK(fit_geometry(swept(0.0, 8.0, 21, 0.05))->centre_error_px.x > 3.0);  // one side, few degrees
 }
 
+TEST_CASE("sweep geometry: an expected centre keeps it near where few degrees leave it open, and does nothing else") {
+  const std::vector<DirectImage> few = swept(-7.5, 7.5, 31, 0.02, 0.02);  // a zoom lens at its long end
+  const auto alone = fit_geometry(few);
+  const double off = 10.0, expected_error = 12.0;
+  const ExpectedCentre expected{{kTruth.centre_px.x + off, kTruth.centre_px.y}, expected_error};
+  const auto both = fit_geometry(few, expected);
+  REQUIRE(alone.has_value());
+  REQUIRE(both.has_value());
+  CHECK(alone->centre_error_px.x > 2.0 * expected_error);
+  CHECK(std::abs(alone->centre_px.x - kTruth.centre_px.x) > 2.0 * off);
+  CHECK(std::abs(both->centre_px.x - kTruth.centre_px.x) < 1.5 * off);
+  CHECK(both->centre_error_px.x < 1.01 * expected_error);
+  CHECK(both->focal_length_px == doctest::Approx(1700.0).epsilon(0.005));
+  const auto wide = fit_geometry(swept(-30.0, 30.0, 61, 0.05), expected);
+  REQUIRE(wide.has_value());
+  CHECK(std::abs(wide->centre_px.x - kTruth.centre_px.x) < 0.5);
+  const auto exact = fit_geometry(swept(-20.0, 20.0, 21), expected);
+  REQUIRE(exact.has_value());
+  CHECK(exact->centre_px.x == doctest::Approx(kTruth.centre_px.x).epsilon(1e-6));
+  CHECK(!fit_geometry(few, ExpectedCentre{{600.0, 400.0}, 0.0}));
+  CHECK(expected_centre(1200, 800).position_px.y == 400.0);
+  CHECK(expected_centre(1200, 800).error_px == doctest::Approx(12.0));
+}
+
 TEST_CASE("sweep geometry: a reflection taken for the light does little harm; swapped angles show") {
   std::vector<DirectImage> images = swept(-25.0, 25.0, 41, 0.02);
   images[7].position_px = {100.0, 700.0};

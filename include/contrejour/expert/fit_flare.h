@@ -35,7 +35,8 @@ struct FlareSweep {
 };
 
 struct FlareFitOptions {
-  int max_ghosts = 16;
+  int max_ghosts = 16;  // whose edges are found
+  int max_small_ghosts = 12;  // of a few pixels, and bright cores of larger ones
   // The contrast of a ghost's edge must be at least this multiple of the spread of contrasts elsewhere in the pictures.
   // Candidates that reach it are kept only if the fit to the pictures improves by more than chance.
   double min_contrast = 2.0;
@@ -82,6 +83,7 @@ struct FittedFlare {
   // Optical centre of the pictures: the ghosts determine it better than the light's images do.
   Vec2 centre_px;
   // The start of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil").
+  // Small ghosts come last.
   std::vector<FoundGhost> found;
   std::vector<FitProgress> progress;  // of the last fit
   double image_evaluations = 0;  // in all

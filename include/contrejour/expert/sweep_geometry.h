@@ -41,10 +41,20 @@ struct SweepGeometry {
 // is saturated there. In pixels of half the raw size, as merged pictures have.
 [[nodiscard]] CONTREJOUR_API std::optional<Vec2> direct_image_position(const RawFrame& direct);
 
+// Where the optical axis is expected before anything is measured: a camera's mount holds it near the picture's middle.
+struct ExpectedCentre {
+  Vec2 position_px;
+  double error_px = 0;  // standard error, > 0
+};
+// A picture's middle, with an error of a hundredth of its width.
+[[nodiscard]] CONTREJOUR_API ExpectedCentre expected_centre(int width, int height);
+
 // Fits the geometry robustly: images farther off than the others (a reflection taken for the light) count little.
-// Errors: fewer than five images, or none of them far from the others. A sweep to one side only does not determine
-// centre and zero well: centre_error_px says so. If the angles run against the picture's x axis, the focal length is
-// negative: the angles' sign is swapped.
-[[nodiscard]] CONTREJOUR_API Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images);
+// A sweep to one side or over few degrees does not determine centre and zero well by the light's images alone: an
+// expected centre keeps it near, and does nothing where the images determine it better. centre_error_px says how well
+// both together do. If the angles run against the picture's x axis, the focal length is negative: the angles' sign is
+// swapped. Errors: fewer than five images, or none of them far from the others; an expected error that is not above 0.
+[[nodiscard]] CONTREJOUR_API Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images,
+                                                                const std::optional<ExpectedCentre>& expected = {});
 
 }  // namespace contrejour

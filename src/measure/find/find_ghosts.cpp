@@ -7,15 +7,14 @@
 #include <numbers>
 
 #include "base/tasks.h"
+#include "measure/find/station_steps.h"
 
 namespace contrejour::inline internal {
 namespace {
 
 constexpr int kSpokes = 14;             // places around a circle where the step is measured
 constexpr double kOverCircle = 0.3;     // the quantile of the steps around the circle
-constexpr double kOverStations = 0.2;   // and over the stations
 constexpr double kVisibleSpokes = 0.4;  // of all, for a station to count
-constexpr std::size_t kMinStations = 5;
 constexpr double kUnclear = 3.0;  // times the floor: pixels with a larger error are not searched
 constexpr int kRefinements = 24;
 constexpr double kUnclearPart = 0.15;
@@ -70,40 +69,14 @@ double step_across(const SearchPicture& picture, const Spokes& all, Vec2 centre_
   return static_cast<double>(*at);
 }
 
-struct StationStep {
-  double s = 0, step = 0;
-};
-
 // A candidate, and what all stations together show there, which may be below 0.
 struct Disc {
   FoundGhost found;
   double signed_contrast = 0;
 };
 
-// The best range of stations from the axis outwards: a low quantile of their steps, times the root of their number.
-Disc over_stations(std::vector<StationStep>& steps) {
-  Disc disc;
-  FoundGhost& best = disc.found;
-  std::ranges::sort(steps, {}, &StationStep::s);
-  std::vector<double> sorted;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    sorted.insert(std::ranges::upper_bound(sorted, steps[k].step), steps[k].step);
-    const std::size_t count = k + 1;
-    if (count < kMinStations) continue;
-    const double low = sorted[static_cast<std::size_t>(kOverStations * static_cast<double>(count))];
-    const double contrast = low * std::sqrt(static_cast<double>(count));
-    disc.signed_contrast = contrast;
-    if (contrast > best.contrast) {
-      best.contrast = contrast;
-      best.first = steps.front().s;
-      best.last = steps[k].s;
-    }
-  }
-  return disc;
-}
-
 Disc disc_contrast(std::span<const SearchPicture> pictures, const Spokes& all, const FoundGhost& candidate) {
-  Disc best;
+  StationsContrast best;
   const double start_px = candidate.radius * pictures.front().frame.pixels.focal_length_px;
   for (const double half_px : kStepHalf_px) {
     if (half_px > std::max(1.5, 0.5 * start_px)) break;
@@ -117,15 +90,14 @@ Disc disc_contrast(std::span<const SearchPicture> pictures, const Spokes& all, c
                                       std::max(start_px * (1.0 + candidate.growth * s2), kMinRadius_px), half_px);
       if (!std::isnan(step)) steps.push_back({s, step});
     }
-    const Disc disc = over_stations(steps);
-    if (half_px == kStepHalf_px.front() || disc.found.contrast > best.found.contrast) best = disc;
+    const StationsContrast of_all = contrast_over_stations(steps);
+    if (half_px == kStepHalf_px.front() || of_all.contrast > best.contrast) best = of_all;
   }
-  const double contrast = best.found.contrast, first = best.found.first, last = best.found.last;
-  best.found = candidate;
-  best.found.contrast = contrast;
-  best.found.first = first;
-  best.found.last = last;
-  return best;
+  Disc disc{candidate, best.signed_contrast};
+  disc.found.contrast = best.contrast;
+  disc.found.first = best.first;
+  disc.found.last = best.last;
+  return disc;
 }
 
 // A pattern search for the speed, its bend, the radius and its growth of the highest contrast.
@@ -163,13 +135,6 @@ std::vector<double> radii_px(double width) {
 bool is_same(const FoundGhost& a, const FoundGhost& b, double max_distance_px, double focal_length_px) {
   return std::abs(a.speed - b.speed) * max_distance_px < kSameSpeed_px &&
          std::abs(a.radius - b.radius) < std::max(kSameRadius * b.radius, 1.5 / focal_length_px);
-}
-
-// The spread of what the pictures show where there is no disc: of all candidates, nearly all of which are none.
-double usual_contrast(std::vector<double> contrasts) {
-  if (contrasts.size() < 8) return 0.0;
-  std::ranges::sort(contrasts);
-  return contrasts[contrasts.size() / 2] - contrasts[contrasts.size() / 6];
 }
 
 // Evenly spaced ones of all pictures.

@@ -9,161 +9,24 @@
 
 #include "base/tasks.h"
 #include "measure/find/find_ghosts.h"
-#include "measure/fit/flare_problem.h"
+#include "measure/fit/flare_fit_state.h"
 #include "measure/fit/ghost_start.h"
-#include "measure/fit/halo.h"
+#include "measure/fit/small_ghosts.h"
 #include "measure/fit/station_figures.h"
-#include "measure/fit/stations.h"
 
 namespace contrejour {
 namespace {
 
 constexpr double kHaloQuantile = 0.35, kMedian = 0.5;
-constexpr int kAloneIterations = 25, kTogetherIterations = 8, kLastIterations = 25;
+constexpr int kLastIterations = 25;
 constexpr std::size_t kTogetherEvery = 3;  // ghosts, after which all are fitted together
-constexpr double kLeastGain = 8.0;  // of the cost for each unknown of a new ghost: neighbouring pixels err alike
-constexpr int kMostRejected = 4;    // in a row
-constexpr double kNoHuber = 1e9, kFarHuber = 10.0;  // far from the solution every residual is an outlier
 constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
 constexpr std::size_t kStationsOfOneFit = 10;  // to which a ghost is fitted alone
 constexpr double kSeenMargin = 1.1;
-constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
-constexpr double kConverged = 2e-4;
 constexpr std::size_t kFewestToHoldOut = 10;  // stations in all, from which on some are held out
-// The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
-// would stand for the background, or for a bright rim.
-constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003;
-
-// The state of a fit.
-struct FlareFit {
-  FlareFitOptions options;
-  Context context;
-  SweepStations sweep, held_out;
-  std::vector<std::size_t> fitted_of, held_of;  // stations of the sweep
-  std::vector<FitStation> held_fine, held_coarse;
-  // Without the halo: of the full reduced size and half of it, to be searched, and samples of both to be fitted.
-  std::vector<FitStation> fine, coarse, coarse_samples, fine_samples;
-  FittedFlare result;
-  double centre_shift = 0;  // as a tangent
-
-  [[nodiscard]] MeasuredFlare& flare() { return result.flare; }
-};
-
-std::vector<FitStation> half_size_stations(const std::vector<FitStation>& stations) {
-  std::vector<FitStation> halves;
-  for (const FitStation& station : stations) halves.push_back(half_size_station(station));
-  return halves;
-}
-
-// The standard deviation of a usual pixel.
-double usual_error(const std::vector<FitStation>& stations) {
-  std::vector<float> weights;
-  for (const FitStation& station : stations) {
-    for (const float weight : station.weight.pixels) {
-      if (weight > 0.0F) weights.push_back(weight);
-    }
-  }
-  if (weights.empty()) return 1.0;
-  const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
-  std::nth_element(weights.begin(), middle, weights.end());
-  return 1.0 / std::sqrt(static_cast<double>(*middle));
-}
-
-// Stations from which a flare has been subtracted.
-std::vector<FitStation> residual_stations(const std::vector<FitStation>& stations, const MeasuredFlare& flare,
-                                          const Context& context) {
-  std::vector<FitStation> residuals = stations;
-  parallel_for(stations.size(), context, [&](std::size_t k) {
-    const Image model = model_of_station(flare, stations[k]);
-    for (std::size_t i = 0; i < model.pixels.size(); ++i) residuals[k].rate.pixels[i] -= model.pixels[i];
-  });
-  return residuals;
-}
-
-// The halo of what the flare leaves, which is then subtracted from the pictures.
-void separate_halo(FlareFit& fit, double quantile) {
-  const std::vector<FitStation> residuals =
-      fit.flare().ghosts.empty() ? fit.sweep.stations : residual_stations(fit.sweep.stations, fit.flare(), fit.context);
-  const HaloProfile halo = halo_of(residuals, fit.sweep.lights_px, {fit.sweep.masked_px, quantile});
-  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error);
-  fit.held_fine = stations_without(fit.held_out, halo, fit.options.model_error);
-  fit.held_coarse = half_size_stations(fit.held_fine);
-  fit.coarse = half_size_stations(fit.fine);
-  fit.coarse_samples = sampled_stations(fit.coarse, 2);
-  fit.fine_samples = sampled_stations(fit.fine, 4);
-}
-
-struct LevelFit {
-  MeasuredFlare flare;
-  double start_cost = 0, cost = 0;
-  double centre_shift = 0;
-};
-
-Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
-  Eigen::VectorXd all(from.size() + 1);
-  all << from, last;
-  return all;
-}
-
-// Moves the optical centre in all stations.
-void move_all(FlareFit& fit, double centre_shift) {
-  for (auto* stations : {&fit.sweep.stations, &fit.held_out.stations, &fit.fine, &fit.coarse, &fit.coarse_samples,
-                         &fit.fine_samples, &fit.held_fine, &fit.held_coarse}) {
-    for (FitStation& station : *stations) move_centre(station, centre_shift);
-  }
-  fit.centre_shift += centre_shift;
-}
-
-void limit_fades(const FlareProblem& problem, Eigen::VectorXd& upper) {
-  constexpr std::size_t kWidthIn = 6, kWidthOut = 7;  // of curves_of()
-  const double pixel = 1.0 / problem.stations.front().frame.pixels.focal_length_px;
-  for (std::size_t k = 0; k < problem.flare.ghosts.size(); ++k) {
-    const double half_width = problem.flare.ghosts[k].half_width(0.0);
-    upper[problem.layout.curve_terms(k, kWidthIn, 0.0).first] = std::max(2.0 * pixel, 0.5 * half_width);
-    upper[problem.layout.curve_terms(k, kWidthOut, 0.0).first] =
-        kWidestFade_px * pixel + kWidestFade * std::abs(problem.flare.ghosts[k].centre.coefficients.front());
-  }
-}
-
-LevelFit optimised(FlareFit& fit, const std::vector<FitStation>& stations, const MeasuredFlare& flare, double huber,
-                   int iterations, bool with_centre = false) {
-  FlareProblem problem(stations, flare);
-  problem.with_centre = with_centre;
-  problem.huber = huber;
-  problem.context = fit.context;
-  const auto count = static_cast<double>(stations.size());
-  fit.result.progress.clear();
-  double evaluations = 0.0;
-  const auto counted = [&](double cost) {
-    evaluations += count;
-    fit.result.progress.push_back({evaluations, cost});
-  };
-  LeastSquaresProblem squares{[&](const Eigen::VectorXd& p) {
-                                NormalEquations equations = problem.equations(p);
-                                counted(equations.cost);
-                                return equations;
-                              },
-                              [&](const Eigen::VectorXd& p) {
-                                const double cost = problem.cost(p);
-                                counted(cost);
-                                return cost;
-                              },
-                              problem.layout.lower(), problem.layout.upper()};
-  Eigen::VectorXd start = problem.layout.pack(flare);
-  limit_fades(problem, squares.upper);
-  if (with_centre) {
-    start = with_last(start, 0.0);
-    squares.lower = with_last(squares.lower, -kMostShift);
-    squares.upper = with_last(squares.upper, kMostShift);
-  }
-  const LeastSquaresResult best = least_squares(squares, start, {iterations, kConverged});
-  fit.result.image_evaluations += evaluations;
-  const double shift = with_centre ? best.parameters[problem.layout.size()] : 0.0;
-  return {problem.layout.unpack(flare, best.parameters), fit.result.progress.front().cost, best.cost, shift};
-}
 
 void fit_together(FlareFit& fit, const std::vector<FitStation>& stations, double huber, int iterations) {
-  const LevelFit l = optimised(fit, stations, fit.flare(), huber, iterations, true);
+  const LevelFit l = optimised(fit, stations, fit.flare(), {huber, iterations, true});
   move_all(fit, l.centre_shift);
   fit.flare() = l.flare;
 }
@@ -186,17 +49,16 @@ bool add_ghost(FlareFit& fit, const std::vector<FitStation>& all_residuals, cons
   MeasuredFlare alone = fit.flare();
   alone.ghosts = {start_of_ghost(found, residuals, alone.s_max)};
   alone.ghosts[0].name = fmt::format("{}", fit.flare().ghosts.size());
-  const MeasuredFlare none{alone.name, alone.source, alone.s_max, alone.exposure, {}};
-  const FlareProblem empty(residuals, none);
+  const FlareProblem empty(residuals, fit.flare_of({}));
   const double before = empty.cost(Eigen::VectorXd(0));
-  LevelFit best = optimised(fit, residuals, alone, kNoHuber, kAloneIterations);
-  if (fit.result.found.empty()) {  // the first ghost says where the optical centre is
-    best = optimised(fit, residuals, best.flare, kFarHuber, kAloneIterations, true);
+  LevelFit best = optimised(fit, residuals, alone, {kNoHuber, kAloneIterations});
+  if (fit.result.found.empty() && fit.small.empty()) {  // the first ghost says where the optical centre is
+    best = optimised(fit, residuals, best.flare, {kFarHuber, kAloneIterations, true});
     move_all(fit, best.centre_shift);
     for (FitStation& station : residuals) move_centre(station, best.centre_shift);
   }
   for (const double huber : {kFarHuber, fit.options.huber})
-    best = optimised(fit, residuals, best.flare, huber, kAloneIterations);
+    best = optimised(fit, residuals, best.flare, {huber, kAloneIterations});
   const auto unknowns = static_cast<double>(ParameterLayout(best.flare).size());
   if (fit.context.cancelled() || before - best.cost < kLeastGain * unknowns) return false;
   fit.flare().ghosts.push_back(best.flare.ghosts[0]);
@@ -229,7 +91,6 @@ void find_all(FlareFit& fit) {
 // The stations' figures, in the order of the sweep; sums: of all of them together.
 std::vector<FittedStation> judged(const FlareFit& fit, bool held_out, ClearSums& sums) {
   const std::vector<FitStation>& fine = held_out ? fit.held_fine : fit.fine;
-  const std::vector<FitStation>& coarse = held_out ? fit.held_coarse : fit.coarse;
   std::vector<FittedStation> judged(fine.size());
   std::vector<ClearSums> parts(fine.size());
   const auto total = static_cast<double>(fit.fitted_of.size() + fit.held_of.size());
@@ -242,7 +103,9 @@ std::vector<FittedStation> judged(const FlareFit& fit, bool held_out, ClearSums&
     Image model = model_of_station(fit.result.flare, station);
     one.captured = flux_of(station.rate, station);
     one.fitted = flux_of(model, station);
-    parts[k] = clear_sums(coarse[k], model_of_station(fit.result.flare, coarse[k]));
+    FitStation modelled = station;
+    modelled.rate = model;
+    parts[k] = clear_sums(half_size_station(station), half_size_station(modelled).rate);
     one.nrmse = parts[k].nrmse();
     const int pictures = fit.options.pictures;
     if (std::floor(static_cast<double>(one.station + 1) * pictures / total) <=
@@ -285,8 +148,8 @@ void choose_degree(FlareFit& fit) {
   if (fit.held_coarse.empty() || fit.result.found.empty()) return;
   double least = held_out_cost(fit, fit.flare(), 0.0);
   for (int degree = 1; degree <= fit.options.max_degree; ++degree) {
-    const LevelFit more = optimised(fit, fit.coarse_samples, flare_of_degree(fit.flare(), degree), fit.options.huber,
-                                    kTogetherIterations, true);
+    const LevelFit more = optimised(fit, fit.coarse_samples, flare_of_degree(fit.flare(), degree),
+                                    {fit.options.huber, kTogetherIterations, true});
     const double cost = held_out_cost(fit, more.flare, more.centre_shift);
     if (fit.context.cancelled() || !(cost < least)) return;
     least = cost;
@@ -309,6 +172,15 @@ void hold_out(FlareFit& fit) {
     to.lights_px.push_back(all.lights_px[k]);
     (held ? fit.held_of : fit.fitted_of).push_back(k);
   }
+}
+
+// Joins both kinds of ghosts to one flare.
+void add_small_ghosts(FlareFit& fit) {
+  for (MeasuredGhost& ghost : fit.small) {
+    ghost.name = fmt::format("{}", fit.flare().ghosts.size());
+    fit.flare().ghosts.push_back(std::move(ghost));
+  }
+  fit.result.found.insert(fit.result.found.end(), fit.small_found.begin(), fit.small_found.end());
 }
 
 // Light that is the same everywhere is no flare where there is no ghost.
@@ -336,14 +208,18 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
         fmt::format("{:.0f} per cent of the pixels are saturated in every exposure: take shorter ones",
                     100.0 * fit.sweep.saturated));
   }
+  find_small_ghosts(fit, (options.max_small_ghosts + 1) / 2);
   find_all(fit);
-  if (fit.result.found.empty())
+  find_small_ghosts(fit, options.max_small_ghosts);
+  if (fit.result.found.empty() && fit.small.empty())
     fit.result.warnings.emplace_back("no ghost was found: the pictures show none that stands out");
   if (context.progress) context.progress(0.5);
   separate_halo(fit, kMedian);
   fit_together(fit, fit.coarse_samples, options.huber, kTogetherIterations);
   choose_degree(fit);
   fit_together(fit, fit.fine_samples, options.huber, kLastIterations);
+  finish_small_ghosts(fit);
+  add_small_ghosts(fit);
   if (context.cancelled()) return interrupted();
   const TangentFrame& frame = fit.fine.front().frame.pixels;
   fit.flare().half_field = {0.5 * frame.width / frame.focal_length_px, 0.5 * frame.height / frame.focal_length_px};

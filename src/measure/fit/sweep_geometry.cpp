@@ -21,6 +21,8 @@ constexpr double kBrightPart = 0.5;     // of the maximum: what certainly belong
 // The pixels at its edge, which are lit in part, say between which pixels it lies.
 constexpr double kFaintPart = 0.05, kEdgeRadii = 1.5, kEdgeMargin_px = 1.5;
 constexpr double kSaturated = 0.98;     // of the white level
+constexpr double kExpectedError = 0.01;  // of the picture's width: mounts and sensors are centred better than that
+constexpr double kLeastError_px = 1e-6;  // of an image: exact ones leave the expected centre without influence
 
 SweepGeometry geometry_of(const Eigen::VectorXd& p) { return {{p[0], p[1]}, p[2], p[3], p[4], p[5], 0.0, {}}; }
 
@@ -54,16 +56,27 @@ double loss(double distance_px) {
 }
 double weight(double distance_px) { return distance_px <= kHuber_px ? 1.0 : kHuber_px / distance_px; }
 
-double cost_of(const Eigen::VectorXd& p, std::span<const DirectImage> images) {
+// The expected centre counts as one more measurement, whose weight is relative to that of a light's image.
+struct CentrePrior {
+  Vec2 position_px;
+  double weight = 0;
+};
+
+double cost_of(const Eigen::VectorXd& p, std::span<const DirectImage> images, const CentrePrior& prior) {
   const SweepGeometry g = geometry_of(p);
-  double cost = 0.0;
+  const Vec2 off = g.centre_px - prior.position_px;
+  double cost = 0.5 * prior.weight * dot(off, off);
   for (const DirectImage& image : images) cost += loss(term_of(g, image).residual.norm());
   return cost;
 }
 
-NormalEquations equations_of(const Eigen::VectorXd& p, std::span<const DirectImage> images) {
+NormalEquations equations_of(const Eigen::VectorXd& p, std::span<const DirectImage> images, const CentrePrior& prior) {
   const SweepGeometry g = geometry_of(p);
   NormalEquations equations{0.0, Eigen::VectorXd::Zero(kParameters), Eigen::MatrixXd::Zero(kParameters, kParameters)};
+  const Vec2 off = g.centre_px - prior.position_px;
+  equations.cost = 0.5 * prior.weight * dot(off, off);
+  equations.gradient.head<2>() = prior.weight * Eigen::Vector2d(off.x, off.y);
+  equations.hessian.topLeftCorner<2, 2>() = prior.weight * Eigen::Matrix2d::Identity();
   for (const DirectImage& image : images) {
     const ImageTerm term = term_of(g, image);
     const double distance = term.residual.norm(), w = weight(distance);
@@ -96,6 +109,28 @@ Vec2 centre_errors(const Eigen::MatrixXd& hessian, double roll_rad, double varia
   const Eigen::Matrix2d centre = variance * lu.inverse().topLeftCorner<2, 2>();
   const Eigen::Vector2d along(std::cos(roll_rad), -std::sin(roll_rad)), across(std::sin(roll_rad), std::cos(roll_rad));
   return {std::sqrt(std::max(along.dot(centre * along), 0.0)), std::sqrt(std::max(across.dot(centre * across), 0.0))};
+}
+
+struct Fitted {
+  Eigen::VectorXd parameters;
+  Eigen::MatrixXd hessian;
+  double squares = 0, variance = 0;  // of the residuals; of a coordinate of an image
+};
+
+Fitted fitted(std::span<const DirectImage> images, const Eigen::VectorXd& start, const CentrePrior& prior) {
+  const LeastSquaresProblem problem{[&](const Eigen::VectorXd& p) { return equations_of(p, images, prior); },
+                                    [&](const Eigen::VectorXd& p) { return cost_of(p, images, prior); }};
+  const LeastSquaresResult best = least_squares(problem, start, {200, 1e-14});
+  Fitted fit{best.parameters, best.hessian, 0.0, 0.0};
+  const SweepGeometry geometry = geometry_of(best.parameters);
+  double freedom = -static_cast<double>(kParameters);
+  for (const DirectImage& image : images) {
+    const double off = term_of(geometry, image).residual.norm();
+    fit.squares += weight(off) * off * off;
+    freedom += 2.0;
+  }
+  fit.variance = fit.squares / std::max(freedom, 1.0);
+  return fit;
 }
 
 // The centroid of what exceeds a level within a radius, in raw pixels.
@@ -142,7 +177,9 @@ std::optional<Vec2> direct_image_position(const RawFrame& direct) {
   return whole.at * 0.5;
 }
 
-Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images) {
+ExpectedCentre expected_centre(int width, int height) { return {{0.5 * width, 0.5 * height}, kExpectedError * width}; }
+
+Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images, const std::optional<ExpectedCentre>& expected) {
   if (images.size() < kMinImages) {
     return invalid_argument(
         fmt::format("{} images of the light; at least {} determine the geometry", images.size(), kMinImages));
@@ -153,18 +190,15 @@ Result<SweepGeometry> fit_geometry(std::span<const DirectImage> images) {
   if (!(spread > kMinSpread_px)) {
     return invalid_argument(fmt::format("the light's image moves by {:.1f} pixels only: check the angles", spread));
   }
-  const LeastSquaresProblem problem{[&](const Eigen::VectorXd& p) { return equations_of(p, images); },
-                                    [&](const Eigen::VectorXd& p) { return cost_of(p, images); }};
-  const LeastSquaresResult fit = least_squares(problem, start_of(images), {200, 1e-14});
-  SweepGeometry geometry = geometry_of(fit.parameters);
-  double squares = 0.0, freedom = -static_cast<double>(kParameters);
-  for (const DirectImage& image : images) {
-    const double off = term_of(geometry, image).residual.norm();
-    squares += weight(off) * off * off;
-    freedom += 2.0;
+  if (expected && !(expected->error_px > 0.0)) return invalid_argument("the expected centre's error must be above 0");
+  Fitted fit = fitted(images, start_of(images), {});
+  if (expected) {
+    const double error = std::max(std::sqrt(fit.variance), kLeastError_px) / expected->error_px;
+    fit = fitted(images, fit.parameters, {expected->position_px, error * error});
   }
-  geometry.rms_px = std::sqrt(squares / static_cast<double>(images.size()));
-  geometry.centre_error_px = centre_errors(fit.hessian, geometry.roll_rad, squares / std::max(freedom, 1.0));
+  SweepGeometry geometry = geometry_of(fit.parameters);
+  geometry.rms_px = std::sqrt(fit.squares / static_cast<double>(images.size()));
+  geometry.centre_error_px = centre_errors(fit.hessian, geometry.roll_rad, fit.variance);
   return geometry;
 }
 

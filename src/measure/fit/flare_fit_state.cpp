@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/fit/flare_fit_state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/tasks.h"
+#include "measure/fit/halo.h"
+#include "measure/fit/station_figures.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
+constexpr double kConverged = 2e-4;
+// The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
+// would stand for the background, or for a bright rim. A small ghost's window has no background left.
+constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6;
+// The least half axis of a small ghost: the mean over a pixel's width holds for borders that are straight over it.
+constexpr double kLeastHalfAxis_px = 0.6;
+constexpr double kNearPart = 0.35;  // of its radius: how far a small ghost may move in one fit, beside a pixel
+
+Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
+  Eigen::VectorXd all(from.size() + 1);
+  all << from, last;
+  return all;
+}
+
+// A small ghost stays near its start, because its window shows parts of others, too.
+void keep_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
+  constexpr std::array<std::size_t, 4> kShape{0, 1, 2, 3};  // of curves_of(): centre, half width, skew, half height
+  const double pixel = 1.0 / problem.stations.front().frame.pixels.focal_length_px;
+  const Eigen::VectorXd start = problem.layout.pack(problem.flare);
+  const double radius = problem.flare.ghosts[ghost].half_height(0.0);
+  for (const std::size_t curve : kShape) {
+    const ParameterLayout::CurveTerms terms = problem.layout.curve_terms(ghost, curve, 0.0);
+    const bool is_size = curve == 1 || curve == 3;
+    for (std::size_t k = 0; k < terms.terms.size(); ++k) {
+      const Eigen::Index at = terms.first + static_cast<Eigen::Index>(k);
+      const double most = curve == 0 ? pixel + kNearPart * radius : kNearPart * radius;
+      squares.lower[at] = start[at] - most;
+      squares.upper[at] = start[at] + most;
+      if (is_size && k == 0) squares.lower[at] = std::max(squares.lower[at], kLeastHalfAxis_px * pixel);
+      if (is_size && k == 0) squares.upper[at] = std::max(squares.upper[at], squares.lower[at]);
+    }
+  }
+}
+
+// Bounds of fades and of small ghosts' sizes, relative to the picture's pixels.
+void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& squares) {
+  constexpr std::size_t kWidthIn = 6, kWidthOut = 7;  // of curves_of()
+  const double pixel = 1.0 / problem.stations.front().frame.pixels.focal_length_px;
+  for (std::size_t k = 0; k < problem.flare.ghosts.size(); ++k) {
+    const MeasuredGhost& ghost = problem.flare.ghosts[k];
+    const auto constant_of = [&](std::size_t curve) { return problem.layout.curve_terms(k, curve, 0.0).first; };
+    const double half_width = ghost.half_width(0.0);
+    squares.upper[constant_of(kWidthIn)] = std::max(2.0 * pixel, 0.5 * half_width);
+    const double widest = kWidestFade_px * pixel + kWidestFade * std::abs(ghost.centre.coefficients.front());
+    squares.upper[constant_of(kWidthOut)] = small ? std::max(widest, kWidestOfSmall * half_width) : widest;
+    if (small) keep_near(problem, k, squares);
+  }
+}
+
+}  // namespace
+
+MeasuredFlare FlareFit::flare_of(std::vector<MeasuredGhost> ghosts) const {
+  return {result.flare.name, result.flare.source, result.flare.s_max, result.flare.exposure, std::move(ghosts)};
+}
+
+std::vector<FitStation> half_size_stations(const std::vector<FitStation>& stations) {
+  std::vector<FitStation> halves;
+  for (const FitStation& station : stations) halves.push_back(half_size_station(station));
+  return halves;
+}
+
+double usual_error(const std::vector<FitStation>& stations) {
+  std::vector<float> weights;
+  for (const FitStation& station : stations) {
+    for (const float weight : station.weight.pixels) {
+      if (weight > 0.0F) weights.push_back(weight);
+    }
+  }
+  if (weights.empty()) return 1.0;
+  const auto middle = weights.begin() + static_cast<std::ptrdiff_t>(weights.size() / 2);
+  std::nth_element(weights.begin(), middle, weights.end());
+  return 1.0 / std::sqrt(static_cast<double>(*middle));
+}
+
+std::vector<FitStation> residual_stations(std::vector<FitStation> stations, const MeasuredFlare& flare,
+                                          const Context& context) {
+  if (flare.ghosts.empty()) return stations;
+  parallel_for(stations.size(), context, [&](std::size_t k) {
+    const Image model = model_of_station(flare, stations[k]);
+    for (std::size_t i = 0; i < model.pixels.size(); ++i) stations[k].rate.pixels[i] -= model.pixels[i];
+  });
+  return stations;
+}
+
+void subtract_small_ghosts(FlareFit& fit) {
+  const MeasuredFlare small = fit.flare_of(fit.small);
+  const std::vector<FitStation> fine = residual_stations(fit.fine, small, fit.context);
+  fit.coarse = half_size_stations(fine);
+  fit.coarse_samples = sampled_stations(fit.coarse, 2);
+  fit.fine_samples = sampled_stations(fine, 4);
+  fit.held_coarse = half_size_stations(residual_stations(fit.held_fine, small, fit.context));
+}
+
+void separate_halo(FlareFit& fit, double quantile) {
+  std::vector<MeasuredGhost> all = fit.flare().ghosts;
+  all.insert(all.end(), fit.small.begin(), fit.small.end());
+  const std::vector<FitStation> residuals =
+      residual_stations(fit.sweep.stations, fit.flare_of(std::move(all)), fit.context);
+  const HaloProfile halo = halo_of(residuals, fit.sweep.lights_px, {fit.sweep.masked_px, quantile});
+  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error);
+  fit.held_fine = stations_without(fit.held_out, halo, fit.options.model_error);
+  subtract_small_ghosts(fit);
+}
+
+void move_all(FlareFit& fit, double centre_shift) {
+  for (auto* stations : {&fit.sweep.stations, &fit.held_out.stations, &fit.fine, &fit.coarse, &fit.coarse_samples,
+                         &fit.fine_samples, &fit.held_fine, &fit.held_coarse}) {
+    for (FitStation& station : *stations) move_centre(station, centre_shift);
+  }
+  fit.centre_shift += centre_shift;
+}
+
+LevelFit optimised(FlareFit& fit, const std::vector<FitStation>& stations, const MeasuredFlare& flare,
+                   const LevelSettings& settings) {
+  FlareProblem problem(stations, flare);
+  problem.with_centre = settings.with_centre;
+  problem.huber = settings.huber;
+  problem.context = fit.context;
+  const auto count = static_cast<double>(stations.size());
+  fit.result.progress.clear();
+  double evaluations = 0.0;
+  const auto counted = [&](double cost) {
+    evaluations += count;
+    fit.result.progress.push_back({evaluations, cost});
+  };
+  LeastSquaresProblem squares{[&](const Eigen::VectorXd& p) {
+                                NormalEquations equations = problem.equations(p);
+                                counted(equations.cost);
+                                return equations;
+                              },
+                              [&](const Eigen::VectorXd& p) {
+                                const double cost = problem.cost(p);
+                                counted(cost);
+                                return cost;
+                              },
+                              problem.layout.lower(), problem.layout.upper()};
+  Eigen::VectorXd start = problem.layout.pack(flare);
+  limit_shape(problem, settings.small, squares);
+  if (settings.with_centre) {
+    start = with_last(start, 0.0);
+    squares.lower = with_last(squares.lower, -kMostShift);
+    squares.upper = with_last(squares.upper, kMostShift);
+  }
+  const LeastSquaresResult best = least_squares(squares, start, {settings.iterations, kConverged});
+  fit.result.image_evaluations += evaluations;
+  const double shift = settings.with_centre ? best.parameters[problem.layout.size()] : 0.0;
+  return {problem.layout.unpack(flare, best.parameters), best.cost, shift};
+}
+
+}  // namespace contrejour::inline internal
