@@ -178,7 +178,7 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
 
 std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t count, std::size_t pass,
                                   bool is_linear) {
-  return is_linear ? samples.factors(count, pass) : samples.factors(count, pass);
+  return is_linear ? samples.linear_weights(count, pass) : samples.factors(count, pass);
 }
 
 std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass) {

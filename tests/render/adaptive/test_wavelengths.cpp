@@ -98,6 +98,20 @@ TEST_CASE("polynomials in 1 / lambda^2 are predicted exactly, others are not") {
   CHECK(worst > 0.1);
 }
 
+TEST_CASE("where coatings are uneven over the wavelengths, straight lines interpolate and nothing becomes negative") {
+  const std::vector<double> lambda_nm = evenly(400.0, 700.0, 32);
+  const WavelengthSamples samples(lambda_nm, 4);
+  double least = 0.0;
+  for (std::size_t pass = 0; pass < lambda_nm.size(); ++pass) {
+    const std::vector<double> weights = light_factors(samples, 4, pass, true);
+    CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == doctest::Approx(1.0));
+    CHECK(std::ranges::count_if(weights, [](double weight) { return weight != 0.0; }) <= 2);
+    for (const double weight : weights) CHECK(weight >= 0.0);
+    least = std::min(least, std::ranges::min(light_factors(samples, 4, pass, false)));
+  }
+  CHECK(least < -0.1);  // those of polynomials are not
+}
+
 TEST_CASE("few wavelengths tell the transmissions of sixteen") {
   for (const Ghost ghost : {Ghost{3, 4}, Ghost{1, 2}, Ghost{7, 9}}) {
     CAPTURE(ghost.i);
@@ -320,6 +334,25 @@ TEST_CASE("by default a fisheye's ghosts are continuous spectra, not bars") {
   const auto difference = compare(test::flare_of("adaptive", lens, {&light, 1}, settings).image, ours);
   REQUIRE(difference.has_value());
   CHECK(difference->psnr_db.value_or(1000.0) >= 48.0);  // with three wavelengths 34
+}
+
+TEST_CASE("a ghost without green light stays without it") {
+  const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
+  test::Settings settings;
+  settings.frame = frame_on_sensor(lens, 320, 180);
+  settings.scope = GhostScope::All;
+  settings.selection = SelectList{{{12, 19}}};
+  const Light light = test::light_at(lens, settings.frame, {0.7098521, 0.3354178});
+  const auto sums_of = [&](const test::Settings& of) {
+    const Image image = test::flare_of("adaptive", lens, {&light, 1}, of).image;
+    std::array<double, 3> sums{};
+    for (std::size_t k = 0; k < image.pixels.size(); ++k) sums[k % 3] += image.pixels[k];
+    return sums;
+  };
+  const std::array<double, 3> ours = sums_of(settings);
+  settings.wavelengths = 96;
+  const std::array<double, 3> truth = sums_of(settings);
+  for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(ours[c] - truth[c]) <= 0.01 * (truth[0] + truth[1] + truth[2]));
 }
 
 TEST_CASE("sixteen wavelengths as in the reference [slow]") {
