@@ -29,7 +29,7 @@ class FarmShot {
   // (its own message is on the standard error by then).
   [[nodiscard]] Result<std::vector<int>> frames_left() const;
 
-  // Those frames in chunks, each as a range (frame_range.h).
+  // The frames in chunks, each as a range (frame_range.h).
   [[nodiscard]] std::vector<std::string> chunks_of(const std::vector<int>& frames) const;
 
   // The command line of a chunk for a POSIX shell. frames: a word of the shell. The frames that are done are left out,

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "cli/ghost_report.h"
-#include "cli/ghost_request.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/text_table.h"
+#include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/trace.h"
 

@@ -24,7 +24,7 @@ struct Pole {  // a dark vertical cylinder that stands on the road
 [[nodiscard]] std::vector<Lamp> street_lamps();  // two rows along the kerbs
 [[nodiscard]] Lamp moon();                       // as a lamp that is very far away
 
-// What is left of the light over a distance in the haze.
+// The fraction of the light that passes a distance of haze.
 [[nodiscard]] double haze_transmittance(double distance);
 
 class StreetScene {

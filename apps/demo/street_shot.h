@@ -28,7 +28,7 @@ struct ShotLight {
   bool in_haze = true;  // false: beyond it
 };
 
-// What is where at one time of the shot.
+// The camera and the lights at one time of the shot.
 struct ShotMoment {
   CameraPose camera;
   std::vector<ShotLight> lights;  // the same ones in the same order at all times

@@ -28,7 +28,7 @@ class Reader {
     const ParamHandle param = instance_.handle(k);
     if (param == nullptr) return values;
     Numbers read = values;
-    int whole = static_cast<int>(values[0]);
+    int whole = 0;
     Status got = status::kFailed;
     switch (spec.type) {
       case ParamType::Real: got = suite_.get_value_at_time(param, time_, &read[0]); break;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the module for colour spaces offers (plate_modules/opencolorio.cpp).
+// The functions of the module for colour spaces (plate_modules/opencolorio.cpp).
 #pragma once
 
 #include <cstddef>

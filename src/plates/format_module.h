@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the module for formats other than OpenEXR and PNG offers (plate_modules/openimageio.cpp).
+// The functions of the module for formats other than OpenEXR and PNG (plate_modules/openimageio.cpp).
 #pragma once
 
 #include <cstddef>

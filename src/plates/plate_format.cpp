@@ -32,7 +32,7 @@ constexpr int kFilmBits = 10;  // of a new DPX
 
 bool is_integer(SampleType type) { return type == SampleType::UInt8 || type == SampleType::UInt16; }
 
-// What a format holds of a picture whose colours are of this type.
+// The samples in which a format holds a picture whose colours are of this type.
 SampleType stored_type(const std::string& format, SampleType type) {
   if (format == "hdr") return SampleType::Float;
   if (format == "jpeg") return SampleType::UInt8;

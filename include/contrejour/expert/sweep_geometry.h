@@ -41,7 +41,8 @@ struct SweepGeometry {
 // is saturated there. In pixels of half the raw size, as merged pictures have.
 [[nodiscard]] CONTREJOUR_API std::optional<Vec2> direct_image_position(const RawFrame& direct);
 
-// Where the optical axis is expected before anything is measured: a camera's mount holds it near the picture's middle.
+// The expected position of the optical axis before anything is measured: a camera's mount holds it near the picture's
+// middle.
 struct ExpectedCentre {
   Vec2 position_px;
   double error_px = 0;  // standard error, > 0

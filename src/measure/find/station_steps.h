@@ -7,7 +7,7 @@
 
 namespace contrejour::inline internal {
 
-// What one station shows: a step of brightness, in any unit.
+// A step of brightness at one station, in any unit.
 struct StationStep {
   double s = 0, step = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace contrejour::inline internal {
 
-// Adds small ghosts until there are so many, or no spot stands out.
+// Adds small ghosts up to the given number, or until no spot stands out.
 void find_small_ghosts(FlareFit& fit, int most);
 
 // The last fit of all of them, with as many coefficients as make the stations held out likeliest.
