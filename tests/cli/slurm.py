@@ -62,14 +62,14 @@ def free_ports(count):
 
 
 class Cluster:
-    """Use it in a with statement. The environment is that for sbatch, squeue and whatever calls them."""
+    """Start it, and stop it by a with statement. The environment is that for sbatch, squeue and whatever calls them."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.environment = dict(os.environ, SLURM_CONF=str(self.folder / "slurm.conf"),
                                 PATH=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
 
-    def __enter__(self):
+    def start(self):
         (self.folder / "state").mkdir(parents=True)
         controller, first, second = free_ports(3)
         (self.folder / "slurm.conf").write_text(
@@ -87,6 +87,8 @@ class Cluster:
         except Exception:
             self.stop()
             raise
+
+    def __enter__(self):
         return self
 
     def __exit__(self, *_):
