@@ -63,9 +63,9 @@ Result<void> wait_for_job(const std::string& job, const FarmShot& shot, std::siz
     silent = 0;
     if (tasks->running + tasks->waiting == 0) return {};
     if (!bar.context().progress) continue;
-    const auto left = shot.frames_left();
-    if (!left) return tl::unexpected(left.error());
-    bar.context().progress(1.0 - static_cast<double>(left->size()) / static_cast<double>(frame_count));
+    // Ctrl-C ends the listing command as well; the bar then keeps its position.
+    if (const auto left = shot.frames_left(); left)
+      bar.context().progress(1.0 - static_cast<double>(left->size()) / static_cast<double>(frame_count));
   }
   return {};
 }

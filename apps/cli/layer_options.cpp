@@ -93,7 +93,7 @@ Result<void> choose_ghosts(LayerChoice& layers, const LensState& lens, std::vect
   std::vector<std::string> names;
   for (const Ghost& ghost : *ghosts) names.push_back(ghost_name(ghost));
   layers.ghosts = fmt::format("{}", fmt::join(names, ","));
-  print_summary(fmt::format("layers of all frames: --layer-ghosts {}\n", layers.ghosts));
+  print_warnings({fmt::format("layers of all frames: --layer-ghosts {}", layers.ghosts)});
   return {};
 }
 

@@ -69,11 +69,15 @@ class Layers(ProgramTest):
         before = (self.folder / "f.2.exr").stat().st_mtime_ns
         self.run_program(*render, "light", "--resume")
         self.assertEqual((self.folder / "f.2.exr").stat().st_mtime_ns, before)
-        done = self.run_program(*render, "ghost", "--layer-count", "2", "--resume").stdout.decode()
+        by_ghost = [*render, "ghost", "--layer-count", "2"]
+        done = self.run_program(*by_ghost, "--resume", "--json")
         names = {tuple(self.layers_of(f"f.{frame}.exr")) for frame in (1, 2, 3)}
         self.assertEqual(len(names), 1)
         self.assertEqual(len(names.pop()), 3)
-        self.assertIn("--layer-ghosts", done)
+        self.assertIn("--layer-ghosts", done.stderr.decode())
+        # The list of ghosts is no part of what other programs read.
+        self.assertEqual([json.loads(line)["frame"] for line in done.stdout.splitlines()], [1, 2, 3])
+        self.assertEqual(self.run_program(*by_ghost, "--list-frames").stdout, b"1-3\n")
 
     def test_photographs(self):
         values = [0.01] * (60 * 40)
