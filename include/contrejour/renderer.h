@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer that lives from frame to frame: it keeps what frames have in common (reflectance tables, diffraction
-// patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders one frame without it.
-// What is kept never changes a picture: a frame is equal, bit for bit, to that of render().
+// A renderer that lives from frame to frame: it keeps what frames have in common (reflectance tables, pupils, direct
+// fluxes, starbursts, diffraction patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders
+// one frame without it. What is kept never changes a picture: a frame is equal, bit for bit, to that of render().
 // Errors: InvalidArgument, Cancelled; after either the renderer is usable as before. Thread-safety: one thread at a
 // time uses a renderer; two renderers share nothing.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -54,6 +55,10 @@ class CONTREJOUR_API Renderer {
   // The frame in layers, equal to those of the function of this name.
   [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,
                                                    const LayerOptions& options, const Context& context = {});
+
+  // The approximate memory that is kept for the frames to come: up to 300 MB of pupils, fluxes and starbursts that the
+  // last four frames used, and what tables, patterns, dirt and scratch memory take.
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct State;

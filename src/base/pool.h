@@ -35,13 +35,22 @@ class Pool {
     return Lent(*this, std::move(thing));
   }
 
+  // The sum over the objects that are not lent.
+  template <class BytesOf>
+  [[nodiscard]] std::size_t bytes(const BytesOf& bytes_of) const {
+    const std::lock_guard lock(mutex_);
+    std::size_t sum = 0;
+    for (const auto& thing : unused_) sum += bytes_of(*thing);
+    return sum;
+  }
+
  private:
   void give_back(std::unique_ptr<Thing> thing) {
     const std::lock_guard lock(mutex_);
     unused_.push_back(std::move(thing));
   }
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Thing>> unused_;
 };
 

@@ -62,6 +62,18 @@ struct StarburstRings {
   std::vector<StarburstOctave> octaves;  // those within kNear_px have no means over pixels
   std::vector<CellOctave> near_cells;  // the first octaves, as far as pixels within kNear_px reach
   std::shared_ptr<const NearField> near;
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t floats = 0;
+    for (const StarburstOctave& octave : octaves) {
+      floats += octave.rgb0.size();
+      for (const SharpZone& zone : octave.zones) floats += zone.rgb0.size();
+    }
+    for (const CellOctave& octave : near_cells) floats += octave.rgb0.size();
+    // The near field has the near cells' values once more, as doubles and without the fourth.
+    for (const CellOctave& octave : near_cells) floats += octave.rgb0.size() * 3 / 2;
+    return floats * sizeof(float);
+  }
 };
 
 }  // namespace contrejour::inline internal

@@ -32,6 +32,12 @@ class ByWavelength {
   }
 
   [[nodiscard]] std::size_t size() const { return shared_ ? shared_->size() : 0; }
+  // The sum over those that are made; while none is being made.
+  [[nodiscard]] std::size_t bytes() const
+    requires requires(const T& made) { made.bytes(); }
+  {
+    return shared_ ? shared_->bytes() : 0;
+  }
 
  private:
   struct Entry {
@@ -51,6 +57,12 @@ class ByWavelength {
     [[nodiscard]] std::size_t size() {
       const std::scoped_lock lock(mutex);
       return entries.size();
+    }
+    [[nodiscard]] std::size_t bytes() {
+      const std::scoped_lock lock(mutex);
+      std::size_t sum = 0;
+      for (const auto& [lambda_nm, entry] : entries) sum += entry.value ? entry.value->bytes() : 0;
+      return sum;
     }
   };
 

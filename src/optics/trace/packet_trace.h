@@ -34,6 +34,7 @@ class ReflectanceTables {
   [[nodiscard]] const Entry& of(int surface) const { return entries_[static_cast<std::size_t>(surface)]; }
   [[nodiscard]] const float* values() const { return values_.data(); }
   [[nodiscard]] double lambda_nm() const { return lambda_nm_; }
+  [[nodiscard]] std::size_t bytes() const { return values_.size() * sizeof(float); }
 
  private:
   [[nodiscard]] Entry entry_of(const SurfaceState& surface, const LensState& lens);

@@ -37,6 +37,9 @@ struct Scratch {
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit Scratch(const Key& /*key*/) {}
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return cells.bytes([](const BoxCells& one) { return one.bytes(); }) + rasteriser.bytes();
+  }
   Pool<BoxCells> cells;
   TileRasteriser rasteriser;
 };

@@ -36,14 +36,15 @@ Work take_boxes(Item& item, GhostPupil pupil) {
 
 Work find_boxes(const Scene& scene, Item& item) {
   const std::vector<double> lambda_nm = wavelengths_of(*item.light);
-  return take_boxes(item, find_ghost_pupil(request_of(scene, item, lambda_nm)));
+  return take_boxes(item, scene.plan.kept_pupils->find_ghost_pupil(request_of(scene, item, lambda_nm)));
 }
 
 }  // namespace
 
 Work widen_boxes(const Scene& scene, Item& item) {
   const std::vector<double> lambda_nm = wavelengths_of(*item.light);
-  return take_boxes(item, refit_ghost_pupil(request_of(scene, item, lambda_nm), std::move(item.boxes)));
+  const PupilRequest request = request_of(scene, item, lambda_nm);
+  return take_boxes(item, scene.plan.kept_pupils->refit_ghost_pupil(request, std::move(item.boxes)));
 }
 
 namespace {

@@ -208,4 +208,9 @@ void DirtField::find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
+std::size_t DirtField::bytes() const {
+  return shapes_.size() * sizeof(DirtStroke) + (first_.size() + shapes_of_cell_.size()) * sizeof(std::uint32_t) +
+         transmitted_.size() * sizeof(double);
+}
+
 }  // namespace contrejour::inline internal

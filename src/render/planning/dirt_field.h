@@ -69,6 +69,7 @@ class DirtField {
   [[nodiscard]] const std::vector<DirtStroke>& shapes() const { return shapes_; }
   // Appends the shapes that may meet a box, in order of index.
   void find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t>& found) const;
+  [[nodiscard]] std::size_t bytes() const;  // of its arrays
 
  private:
   static constexpr int kCells = 128;  // across the field

@@ -11,6 +11,7 @@ struct FrameMemory {
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit FrameMemory(const Key& /*key*/) {}
+  [[nodiscard]] std::size_t memory_bytes() const { return image.pixels.size() * sizeof(float); }
   Image image;
 };
 

@@ -141,10 +141,11 @@ PlannedLight plan_light(const LensState& lens, const TablesByWavelength& tables,
 std::optional<std::vector<PlannedLight>> plan_lights(const LensState& lens, std::span<const Light> lights,
                                                      const FrameSettings& settings, const BandsBySpectrum& spectra,
                                                      std::span<const LightSource> measured,
-                                                     const TablesByWavelength& tables, const Context& context) {
+                                                     const TablesByWavelength& tables, KeptFluxes& kept,
+                                                     const Context& context) {
   std::vector<MeteredLight> metered;
   for (std::size_t k = 0; k < lights.size(); ++k) metered.push_back({measured[k], bands_for(lights[k], spectra)});
-  if (!measure_fluxes(lens, tables, metered, context)) return std::nullopt;
+  if (!measure_fluxes(lens, tables, kept, metered, context)) return std::nullopt;
   std::vector<PlannedLight> planned;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     planned.push_back(plan_light(lens, tables, lights[k], metered[k], edge_gain(lens, lights[k], settings)));
@@ -168,10 +169,12 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
   quiet.progress = {};
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
   const std::shared_ptr<LensTables> kept = cache.section<LensTables>(lens);
-  kept->forget_if_large();
   auto prepared = prepare(request, kept->tables(), spectra, quiet);
   if (!prepared) return interrupted();
-  auto planned = plan_lights(lens, lights, settings, spectra, prepared->measured, prepared->tables, quiet);
+  plan.kept_fluxes = cache.section<KeptFluxes>(KeptFluxes::key_of(lens));
+  plan.kept_pupils = cache.section<pupils::KeptPupils>(pupils::KeptPupils::key_of(lens));
+  auto planned =
+      plan_lights(lens, lights, settings, spectra, prepared->measured, prepared->tables, *plan.kept_fluxes, quiet);
   if (!planned) return interrupted();
   plan.lights = std::move(*planned);
   plan.tables = std::move(prepared->tables);
@@ -179,7 +182,7 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
   plan.adapts_passes = settings.lambda_nm.empty() && settings.wavelengths == kAutoWavelengths;
   plan.reflectances = kept->reflectances(wavelengths_of(spectra));
   const bool measures = layers != nullptr && needs_flux(*layers);
-  auto selected = select_ghosts(lens, plan.lights, plan.tables, settings, measures, quiet);
+  auto selected = select_ghosts(lens, plan.lights, plan.tables, *plan.kept_pupils, settings, measures, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);
   plan.adjustments = applied_adjustments(lens, plan.ghosts, settings.ghosts, settings.frame);
@@ -200,7 +203,7 @@ Result<std::vector<PlannedLight>> plan_more_lights(const FramePlan& plan, const 
                [&](std::size_t k) { measured[k] = measured_source(lens, settings.frame, lights[k].source()); });
   const BandsBySpectrum spectra = bands_by_spectrum(lights, settings);
   if (context.cancelled()) return interrupted();
-  auto planned = plan_lights(lens, lights, settings, spectra, measured, plan.tables, context);
+  auto planned = plan_lights(lens, lights, settings, spectra, measured, plan.tables, *plan.kept_fluxes, context);
   if (!planned) return interrupted();
   return std::move(*planned);
 }

@@ -17,8 +17,9 @@
 #include "render/planning/layer_map.h"
 #include "render/planning/planned_light.h"
 #include "render/planning/render_cache.h"
-#include "render/pupils/ghost_pupil.h"
+#include "render/pupils/kept_pupils.h"
 #include "render/radiometry/ghost_reflectances.h"
+#include "render/radiometry/kept_fluxes.h"
 
 namespace contrejour::inline internal {
 
@@ -37,6 +38,8 @@ struct FramePlan {
   TablesByWavelength tables;  // made on first use
   GhostReflectances reflectances;  // at every wavelength of the lights' passes
   std::shared_ptr<const DirtField> dirt = nullptr;  // null: the lens is clean
+  std::shared_ptr<KeptFluxes> kept_fluxes = nullptr;  // sections of the cache, never null once it is planned
+  std::shared_ptr<pupils::KeptPupils> kept_pupils = nullptr;
   // The ghosts' pupils, by ghost and then by light, if the selection had to find them; else empty.
   std::vector<pupils::GhostPupil> pupils = {};
   std::optional<double> skipped_flux;  // as RenderStatistics::ghosts_skipped_flux

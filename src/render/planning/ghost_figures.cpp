@@ -48,7 +48,8 @@ class FigureMaker {
     if (!parallel_for(lambda_nm_.size(), context, [&](std::size_t k) { (void)tables_.at(lambda_nm_[k]); }))
       return false;
     MeteredLight light{measured_source(lens_, request_.frame, request_.light.source()), request_.bands};
-    if (!measure_fluxes(lens_, tables_, {&light, 1}, context)) return false;
+    KeptFluxes none(KeptFluxes::key_of(lens_));
+    if (!measure_fluxes(lens_, tables_, none, {&light, 1}, context)) return false;
     const DirectMeter on_axis(lens_, {{0.0, 0.0, 1.0}, light.source.distance_mm});
     whole_ = direct_light(request_.bands, light.flux_mm2,
                           [&](std::size_t k) { return on_axis.flux_mm2(tables_.at(request_.bands[k].lambda_nm)); });

@@ -19,6 +19,7 @@ namespace contrejour::inline internal {
 namespace {
 
 using pupils::GhostPupil;
+using pupils::KeptPupils;
 using pupils::PupilRequest;
 
 constexpr std::size_t kMaxMeasured = 5;  // wavelengths of a light; the others are interpolated
@@ -89,8 +90,8 @@ class MeasuredLight {
 class GhostMeasuring {
  public:
   GhostMeasuring(const LensState& lens, std::span<const PlannedLight> lights, const TablesByWavelength& tables,
-                 const FrameSettings& settings)
-      : lens_(lens), settings_(settings), steps_(lens, tables), iris_(lens.iris) {
+                 KeptPupils& pupils, const FrameSettings& settings)
+      : lens_(lens), pupils_(pupils), settings_(settings), steps_(lens, tables), iris_(lens.iris) {
     for (const PlannedLight& light : lights) lights_.emplace_back(lens, light);
   }
 
@@ -105,7 +106,7 @@ class GhostMeasuring {
     const bool done = parallel_for(count, context, [&](std::size_t k) {
       const std::size_t g = k / lights_.size();
       const PupilRequest request = request_of(k, ghosts[g]);
-      GhostPupil searched = search_ghost_pupil(request);
+      GhostPupil searched = pupils_.search_ghost_pupil(request);
       flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, adjustments[g], settings_.frame);
       if (!out.pupils.empty()) out.pupils[k] = std::move(searched);
     });
@@ -119,7 +120,7 @@ class GhostMeasuring {
   // Fits polynomials to the pupils that were searched, at all wavelengths. Returns false when cancelled.
   [[nodiscard]] bool fit(std::span<const Ghost> ghosts, std::vector<GhostPupil>& pupils, const Context& context) const {
     return parallel_for(pupils.size(), context, [&](std::size_t k) {
-      pupils[k] = fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()]), std::move(pupils[k]));
+      pupils[k] = pupils_.fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()]), std::move(pupils[k]));
     });
   }
 
@@ -129,6 +130,7 @@ class GhostMeasuring {
   }
 
   const LensState& lens_;
+  KeptPupils& pupils_;
   const FrameSettings& settings_;
   StepsByWavelength steps_;
   IrisShape iris_;
@@ -216,6 +218,7 @@ struct Selector {
   const LensState& lens;
   std::span<const PlannedLight> lights;
   const TablesByWavelength& tables;
+  KeptPupils& pupils;
   const FrameSettings& settings;
   bool measures;
   const Context& context;
@@ -243,7 +246,7 @@ struct Selector {
   // A choice that did not need the ghosts' fluxes, with them if they are requested.
   [[nodiscard]] Result<GhostChoice> listed(GhostChoice choice) const {
     if (!measures) return choice;
-    const GhostMeasuring measuring(lens, lights, tables, settings);
+    const GhostMeasuring measuring(lens, lights, tables, pupils, settings);
     auto measured = measuring.measure(choice.ghosts, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
     for (const Rgb& fraction : fractions_of(measured->flux)) choice.flux_fractions.push_back(largest(fraction));
@@ -257,7 +260,7 @@ struct Selector {
   template <class Count>
   [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
     const auto all = in_scope();
-    const GhostMeasuring measuring(lens, lights, tables, settings);
+    const GhostMeasuring measuring(lens, lights, tables, pupils, settings);
     auto measured = measuring.measure(all, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
     const std::vector<Rgb> fraction = fractions_of(measured->flux);
@@ -276,9 +279,9 @@ Result<void> check_selection(const LensState& lens, const GhostSelection& select
 }
 
 Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                  const TablesByWavelength& tables, const FrameSettings& settings, bool measures,
-                                  const Context& context) {
-  return std::visit(Selector{lens, lights, tables, settings, measures, context}, settings.selection);
+                                  const TablesByWavelength& tables, KeptPupils& pupils, const FrameSettings& settings,
+                                  bool measures, const Context& context) {
+  return std::visit(Selector{lens, lights, tables, pupils, settings, measures, context}, settings.selection);
 }
 
 }  // namespace contrejour::inline internal

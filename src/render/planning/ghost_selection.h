@@ -10,7 +10,7 @@
 #include "contrejour/frame_settings.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/planning/planned_light.h"
-#include "render/pupils/ghost_pupil.h"
+#include "render/pupils/kept_pupils.h"
 
 namespace contrejour::inline internal {
 
@@ -30,9 +30,9 @@ struct GhostChoice {
 // Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. Their flux is what they add to
 // the picture's channels inside the frame, with the lights' values and spectra and the ghosts' adjustments: a ghost is
 // as bright as its largest fraction, in any channel, of the flux of all ghosts. tables: those of the lights'
-// wavelengths. measures: measures the ghosts in any case. Errors: Cancelled.
+// wavelengths. pupils: of this lens. measures: measures the ghosts in any case. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                                const TablesByWavelength& tables, const FrameSettings& settings,
-                                                bool measures, const Context& context);
+                                                const TablesByWavelength& tables, pupils::KeptPupils& pupils,
+                                                const FrameSettings& settings, bool measures, const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -24,6 +24,7 @@ class KeptDirt {
 
   // Makes the field on the first call; null where the lens is clean. lens: one with this section's key.
   [[nodiscard]] std::shared_ptr<const DirtField> field(const LensState& lens);
+  [[nodiscard]] std::size_t memory_bytes() const { return field_ ? field_->bytes() : 0; }
 
  private:
   std::shared_ptr<const DirtField> field_;

@@ -58,4 +58,12 @@ std::vector<const TextureTable*> PatternAtlas::textures() const {
   return all;
 }
 
+std::size_t PatternAtlas::bytes() const {
+  const std::scoped_lock lock(mutex_);
+  std::size_t sum = outline_.distances.size() * sizeof(float);
+  for (const TextureTable& texture : textures_)
+    sum += texture.pairs.size() * sizeof(TextureTable::Pair) + texture.samples.size() * sizeof(float);
+  return sum;
+}
+
 }  // namespace contrejour::inline internal::raster

@@ -60,6 +60,7 @@ class PatternAtlas {
   // All textures up to now, by index.
   [[nodiscard]] std::vector<const TextureTable*> textures() const;
   [[nodiscard]] const OutlineTable& outline() const { return outline_; }
+  [[nodiscard]] std::size_t bytes() const;  // of all samples
 
  private:
   OutlineTable outline_;

@@ -115,22 +115,29 @@ std::vector<std::size_t> measured_first(std::span<const SpectralBand> bands) {
   return first;
 }
 
-bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, std::span<MeteredLight> lights,
-                    const Context& context) {
+bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, KeptFluxes& kept,
+                    std::span<MeteredLight> lights, const Context& context) {
   std::vector<LightMeter> meters;
   meters.reserve(lights.size());
-  for (MeteredLight& light : lights) meters.emplace_back(lens, light);
+  for (MeteredLight& light : lights) {
+    if (auto known = kept.find(light.source, light.bands))
+      light.flux_mm2 = *std::move(known);
+    else
+      meters.emplace_back(lens, light);
+  }
   if (!parallel_for(meters.size(), context, [&](std::size_t k) { meters[k].find_pupil(tables); })) return false;
   while (true) {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;  // indices of light and band
     for (std::size_t k = 0; k < meters.size(); ++k)
       for (const std::size_t band : meters[k].next_bands()) pairs.emplace_back(k, band);
-    if (pairs.empty()) return true;
+    if (pairs.empty()) break;
     if (!parallel_for(pairs.size(), context,
                       [&](std::size_t at) { meters[pairs[at].first].measure(pairs[at].second, tables); }))
       return false;
     for (LightMeter& meter : meters) meter.end_round();
   }
+  for (const MeteredLight& light : lights) kept.keep(light.source, light.bands, light.flux_mm2);
+  return true;
 }
 
 }  // namespace contrejour::inline internal

@@ -12,6 +12,7 @@
 #include "contrejour/frame.h"
 #include "contrejour/lens.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/radiometry/kept_fluxes.h"
 
 namespace contrejour::inline internal {
 
@@ -27,9 +28,9 @@ struct MeteredLight {
 [[nodiscard]] std::vector<std::size_t> measured_first(std::span<const SpectralBand> bands);
 
 // Finds all fluxes. Where there are many bands, only some are measured: once they predict the next one to 2e-4 of the
-// largest flux, the others are interpolated (wavelength_samples.h) with an error of about 2e-5. Returns false when
-// cancelled.
-[[nodiscard]] bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables,
+// largest flux, the others are interpolated (wavelength_samples.h) with an error of about 2e-5. Those that an earlier
+// frame measured are taken from `kept`, which then contains all. Returns false when cancelled.
+[[nodiscard]] bool measure_fluxes(const LensState& lens, const TablesByWavelength& tables, KeptFluxes& kept,
                                   std::span<MeteredLight> lights, const Context& context);
 
 // The sum over the bands of w[c] * Phi, in mm^2 at E0 = 1, with Phi the band's direct flux where the light is measured.

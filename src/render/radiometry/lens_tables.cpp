@@ -28,9 +28,13 @@ GhostReflectances LensTables::reflectances(std::span<const double> lambda_nm) {
   return reflectances_;
 }
 
-void LensTables::forget_if_large() {
+void LensTables::next_frame() {
   if (tables_.size() > kMaxKept) tables_ = TablesByWavelength(lens_);
   if (reflectances_.size() > kMaxKept) reflectances_ = GhostReflectances();
+}
+
+std::size_t LensTables::memory_bytes() const {
+  return tables_.bytes() + reflectances_.size() * lens_->surfaces.size() * sizeof(double);
 }
 
 }  // namespace contrejour::inline internal

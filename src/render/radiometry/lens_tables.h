@@ -35,9 +35,9 @@ class LensTables {
   [[nodiscard]] const TablesByWavelength& tables() const { return tables_; }
   [[nodiscard]] GhostReflectances reflectances(std::span<const double> lambda_nm);
 
-  // Is called before a new frame: clears the tables if they hold more wavelengths than a few frames have. Tables that
-  // were handed out stay valid.
-  void forget_if_large();
+  // Clears the tables if they hold more wavelengths than a few frames have. Tables that were handed out stay valid.
+  void next_frame();
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   std::shared_ptr<const LensState> lens_;

@@ -37,13 +37,18 @@ std::span<const Light> imaged_lights(const FrameRequest& frame) {
   return own ? std::span<const Light>(*own) : frame.lights;
 }
 
+// The frame with the lights that have images of their own.
+FrameRequest with_imaged_lights(const FrameRequest& frame) {
+  return {frame.lens, imaged_lights(frame), frame.settings, frame.cache, frame.layers};
+}
+
 Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool adds = adds_lights(frame.settings);
   auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
   if (!ghosts) return tl::unexpected(ghosts.error());
   Flare flare{std::move(ghosts->image), std::move(ghosts->statistics)};
   if (!adds) return flare;
-  const auto added = add_light_images(flare.image, flare.statistics, frame.lens, imaged_lights(frame), frame.settings,
+  const auto added = add_light_images(flare.image, flare.statistics, with_imaged_lights(frame),
                                       part_of(context, kGhostsFraction, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
@@ -75,8 +80,7 @@ Result<void> add_lights_to(LayeredFlare& flare, const LayerMap& map, const Frame
                            const Context& context) {
   const std::vector<std::size_t> by_light =
       map.is_by_light() ? layers_of_images(map, frame) : std::vector<std::size_t>();
-  auto images =
-      draw_light_images(flare.statistics, frame.lens, imaged_lights(frame), frame.settings, by_light, context);
+  auto images = draw_light_images(flare.statistics, with_imaged_lights(frame), by_light, context);
   if (!images) return tl::unexpected(images.error());
   if (map.is_by_light()) {
     for (std::size_t k = 0; k < images->starburst.size(); ++k) add(flare.layers[k], std::move(images->starburst[k]));

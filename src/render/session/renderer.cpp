@@ -74,6 +74,7 @@ Result<void> Renderer::set_method(MethodOptions method) {
 
 Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const FrameSettings& settings,
                                           const FrameTarget& target, const Context& context) {
+  state_->cache.next_frame();
   const Frame& frame = settings.frame;
   if (const auto good = check_view(target.pixels, frame.width, frame.height); !good)
     return tl::unexpected(good.error());
@@ -93,12 +94,16 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
 }
 
 Result<Flare> Renderer::render(std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+  state_->cache.next_frame();
   return state_->render(state_->method, lights, settings, context);
 }
 
 Result<LayeredFlare> Renderer::render_layers(std::span<const Light> lights, const FrameSettings& settings,
                                              const LayerOptions& options, const Context& context) {
+  state_->cache.next_frame();
   return state_->render_layers(lights, settings, options, context);
 }
+
+std::size_t Renderer::memory_bytes() const { return state_->cache.memory_bytes(); }
 
 }  // namespace contrejour

@@ -17,6 +17,7 @@
 #include "render/radiometry/direct_light.h"
 #include "render/starburst/area_spread.h"
 #include "render/starburst/glare.h"
+#include "render/starburst/kept_starbursts.h"
 #include "render/starburst/lens_pattern.h"
 #include "render/starburst/light_groups.h"
 
@@ -59,8 +60,8 @@ bool is_outside(const Frame& frame, Vec2 sensor_mm) {
 }
 
 // The position of each light's image, and the flux of its starburst. Lights without any are left out.
-std::vector<ImagedLight> image_lights(const LensState& lens, std::span<const Light> lights,
-                                      const FrameSettings& settings, const Context& context) {
+std::vector<ImagedLight> image_lights(const FrameRequest& request, const Context& context) {
+  const auto& [lens, lights, settings, cache, layers] = request;
   const Frame& frame = settings.frame;
   const double farthest_px = kFarthest_diagonals * std::hypot(frame.full_width, frame.full_height);
   const Vec2 middle_px = frame.pixel_from_sensor({});
@@ -96,15 +97,17 @@ std::vector<SpectralBand> bands_of(const Light& light, const FrameSettings& sett
 }
 
 // The starburst of the brightest light of a group that gets through.
-Result<Starburst> starburst_of(const LightGroup& group, const LensState& lens, std::span<const Light> lights,
-                               const FrameSettings& settings, const Context& context) {
+Result<Starburst> starburst_of(const LightGroup& group, const FrameRequest& frame, KeptStarbursts& kept,
+                               const Context& context) {
+  const auto& [lens, lights, settings, cache, layers] = frame;
   const std::vector<SpectralBand> bands = bands_of(lights[group.front().light], settings);
   LensStarburstSettings drawn{settings.frame.pixel_pitch_mm, 1.0};
   for (const ImagedLight& light : group)
     drawn.radius_px = std::max(drawn.radius_px, 1.0 + distance_to_farthest_corner(settings.frame, light.centre_px));
   for (const ImagedLight& light : group) {
-    const Light& shown = lights[light.light];
-    auto starburst = lens_starburst(lens, {shown.direction, shown.distance_mm}, bands, drawn, context);
+    const LightSource source(lights[light.light].direction, lights[light.light].distance_mm);
+    auto starburst =
+        kept.get({source, bands, drawn}, [&] { return lens_starburst(lens, source, bands, drawn, context); });
     if (!starburst || starburst->rings() != nullptr) return starburst;
   }
   return Starburst();
@@ -132,14 +135,14 @@ Result<void> draw_group(const ImageOfLight& image_of, const LightGroup& group, c
   return {};
 }
 
-Result<void> draw_groups(const ImageOfLight& image_of, const std::vector<LightGroup>& groups, const LensState& lens,
-                         std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+Result<void> draw_groups(const ImageOfLight& image_of, const std::vector<LightGroup>& groups, const FrameRequest& frame,
+                         KeptStarbursts& kept, const Context& context) {
   Context quiet = context;
   quiet.progress = {};
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const auto starburst = starburst_of(groups[g], lens, lights, settings, quiet);
+    const auto starburst = starburst_of(groups[g], frame, kept, quiet);
     if (!starburst) return tl::unexpected(starburst.error());
-    const auto drawn = draw_group(image_of, groups[g], *starburst, settings.frame, quiet);
+    const auto drawn = draw_group(image_of, groups[g], *starburst, frame.settings.frame, quiet);
     if (!drawn) return drawn;
     if (context.progress) context.progress(static_cast<double>(g + 1) / static_cast<double>(groups.size()));
   }
@@ -189,13 +192,15 @@ Result<void> spread_areas(const ImageOfLight& image_of, const std::vector<Imaged
 }
 
 // The flux that glare scatters is taken from the light's own image, so that both together sum to its value.
-Result<void> draw_starbursts(const ImageOfLight& image_of, SortedLights imaged, const LensState& lens,
-                             std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+Result<void> draw_starbursts(const ImageOfLight& image_of, SortedLights imaged, const FrameRequest& frame,
+                             const Context& context) {
+  const auto& [lens, lights, settings, cache, layers] = frame;
+  const auto kept = cache.section<KeptStarbursts>(KeptStarbursts::key_of(lens));
   const double gain = settings.starburst.gain * (1.0 - settings.glare.fraction);
   multiply_flux(imaged.points, gain);
   multiply_flux(imaged.areas, gain);
   const auto groups = group_lights(lights, imaged.points, settings.frame);
-  if (auto drawn = draw_groups(image_of, groups, lens, lights, settings, context); !drawn) return drawn;
+  if (auto drawn = draw_groups(image_of, groups, frame, *kept, context); !drawn) return drawn;
   Context quiet = context;
   quiet.progress = {};
   // The callback is called repeatedly for one light, with pixels of several pitches: its pattern is kept.
@@ -203,14 +208,18 @@ Result<void> draw_starbursts(const ImageOfLight& image_of, SortedLights imaged, 
   StarburstSource source;
   const auto add_point = [&](Image& part, std::size_t light, const PointSpread& spread, Vec2 centre_px,
                              const Rgb& flux) -> Result<void> {
-    if (known != light) {
-      auto made = lens_pattern(lens, lights[light].source(), bands_of(lights[light], settings),
-                               {spread.pixel_pitch_mm, spread.radius_px}, quiet);
-      if (!made) return tl::unexpected(made.error());
-      source = *std::move(made);
-      known = light;
-    }
-    const auto starburst = source.at(spread.pixel_pitch_mm, spread.radius_px, quiet);
+    const std::vector<SpectralBand> bands = bands_of(lights[light], settings);
+    const LensStarburstSettings drawn{spread.pixel_pitch_mm, spread.radius_px};
+    const auto make = [&]() -> Result<Starburst> {
+      if (known != light) {
+        auto made = lens_pattern(lens, lights[light].source(), bands, drawn, quiet);
+        if (!made) return tl::unexpected(made.error());
+        source = *std::move(made);
+        known = light;
+      }
+      return source.at(spread.pixel_pitch_mm, spread.radius_px, quiet);
+    };
+    const auto starburst = kept->get({lights[light].source(), bands, drawn}, make);
     if (!starburst) return tl::unexpected(starburst.error());
     add_starburst(part, *starburst, centre_px, flux, quiet);
     return {};
@@ -233,8 +242,9 @@ Result<void> take_dirt_off(std::vector<ImagedLight>& imaged, const LensState& le
   return {};
 }
 
-Result<void> draw_glare(const ImageOfLight& image_of, std::vector<ImagedLight> imaged, const LensState& lens,
-                        std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+Result<void> draw_glare(const ImageOfLight& image_of, std::vector<ImagedLight> imaged, const FrameRequest& frame,
+                        const Context& context) {
+  const auto& [lens, lights, settings, cache, layers] = frame;
   if (lens.dirt.any())
     if (auto ok = take_dirt_off(imaged, lens, lights, settings.frame, context); !ok) return ok;
   multiply_flux(imaged, settings.glare.fraction);
@@ -295,20 +305,20 @@ Result<void> check_imaged(std::span<const Light> lights, const FrameSettings& se
 }
 
 // Adds starbursts and glare to images, with the times by phase.
-Result<void> draw_into(const LightImageTargets& targets, RenderStatistics& statistics, const LensState& lens,
-                       std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+Result<void> draw_into(const LightImageTargets& targets, RenderStatistics& statistics, const FrameRequest& frame,
+                       const Context& context) {
   Clock::time_point start = Clock::now();
   Context quiet = context;
   quiet.progress = {};
-  const auto imaged = image_lights(lens, lights, settings, quiet);
-  if (settings.starburst.on && !context.cancelled()) {
-    auto drawn = draw_starbursts(targets.starburst, sorted_by_size(imaged, lights), lens, lights, settings, context);
+  const auto imaged = image_lights(frame, quiet);
+  if (frame.settings.starburst.on && !context.cancelled()) {
+    auto drawn = draw_starbursts(targets.starburst, sorted_by_size(imaged, frame.lights), frame, context);
     if (!drawn) return drawn;
     count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
   }
-  if (settings.glare.fraction > 0.0 && !context.cancelled()) {
-    if (auto drawn = draw_glare(targets.glare, imaged, lens, lights, settings, quiet); !drawn) return drawn;
+  if (frame.settings.glare.fraction > 0.0 && !context.cancelled()) {
+    if (auto drawn = draw_glare(targets.glare, imaged, frame, quiet); !drawn) return drawn;
     count_last(statistics, "glare", ms_since(start));
   }
   if (context.cancelled()) return interrupted();
@@ -335,14 +345,15 @@ Result<void> check_light_images(std::span<const Light> lights, const FrameSettin
   return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
 }
 
-Result<void> add_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
-                              std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
+Result<void> add_light_images(Image& image, RenderStatistics& statistics, const FrameRequest& frame,
+                              const Context& context) {
+  const FrameSettings& settings = frame.settings;
   const Image* const left_out = settings.starburst.left_out.get();
   Image apart;
   if (left_out != nullptr) apart = Image(settings.frame.width, settings.frame.height);
   Image& drawn_into = left_out != nullptr ? apart : image;
   const ImageOfLight same = [&](std::size_t) -> Image& { return drawn_into; };
-  auto drawn = draw_into({same, same}, statistics, lens, lights, settings, context);
+  auto drawn = draw_into({same, same}, statistics, frame, context);
   if (!drawn || left_out == nullptr) return drawn;
   Context quiet = context;
   quiet.progress = {};
@@ -351,9 +362,9 @@ Result<void> add_light_images(Image& image, RenderStatistics& statistics, const 
   return {};
 }
 
-Result<LightImages> draw_light_images(RenderStatistics& statistics, const LensState& lens,
-                                      std::span<const Light> lights, const FrameSettings& settings,
+Result<LightImages> draw_light_images(RenderStatistics& statistics, const FrameRequest& frame,
                                       std::span<const std::size_t> layer_of_light, const Context& context) {
+  const FrameSettings& settings = frame.settings;
   const bool is_by_light = !layer_of_light.empty();
   const std::size_t count = is_by_light ? *std::ranges::max_element(layer_of_light) + 1 : 1;
   LightImages images{std::vector<Image>(count), std::vector<Image>(is_by_light ? 0 : 1)};
@@ -365,8 +376,7 @@ Result<LightImages> draw_light_images(RenderStatistics& statistics, const LensSt
     };
   };
   const LightImageTargets targets{target(images.starburst), target(is_by_light ? images.starburst : images.glare)};
-  if (auto drawn = draw_into(targets, statistics, lens, lights, settings, context); !drawn)
-    return tl::unexpected(drawn.error());
+  if (auto drawn = draw_into(targets, statistics, frame, context); !drawn) return tl::unexpected(drawn.error());
   Context quiet = context;
   quiet.progress = {};
   if (const Image* const left_out = settings.starburst.left_out.get())

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "contrejour/render.h"
+#include "render/planning/frame_plan.h"
 
 namespace contrejour::inline internal {
 
 // Checks the options of starburst and glare, and the lights that they apply to. Errors: InvalidArgument.
 [[nodiscard]] Result<void> check_light_images(std::span<const Light> lights, const FrameSettings& settings);
 
-// Adds starbursts and glare to an image, and the phases "starburst" and "glare" to its times. Lights and frame are
-// those of a render that succeeded. Errors: Cancelled.
-[[nodiscard]] Result<void> add_light_images(Image& image, RenderStatistics& statistics, const LensState& lens,
-                                            std::span<const Light> lights, const FrameSettings& settings,
+// Adds starbursts and glare to an image, and the phases "starburst" and "glare" to its times. frame: one that was
+// rendered, with the lights that have images of their own. Errors: Cancelled.
+[[nodiscard]] Result<void> add_light_images(Image& image, RenderStatistics& statistics, const FrameRequest& frame,
                                             const Context& context);
 
 // The same in images of their own, which are without pixels where nothing was drawn.
@@ -26,8 +26,7 @@ struct LightImages {
 };
 
 // layer_of_light: by light, the layer of each; else empty.
-[[nodiscard]] Result<LightImages> draw_light_images(RenderStatistics& statistics, const LensState& lens,
-                                                    std::span<const Light> lights, const FrameSettings& settings,
+[[nodiscard]] Result<LightImages> draw_light_images(RenderStatistics& statistics, const FrameRequest& frame,
                                                     std::span<const std::size_t> layer_of_light,
                                                     const Context& context);
 

@@ -378,4 +378,11 @@ bool DirtDiffraction::is_clean(Vec2 middle_mm, double radius_mm) const {
   return true;
 }
 
+std::size_t DirtDiffraction::bytes() const {
+  std::size_t sum = shapes_.size() * sizeof(Shape) + (first_.size() + shapes_of_cell_.size()) * sizeof(std::uint32_t);
+  for (const Level& level : levels_)
+    for (const auto& tile : level.tile) sum += sizeof(tile) + (tile.load() != nullptr ? sizeof(Tile) : 0);
+  return sum;
+}
+
 }  // namespace contrejour::inline internal::stop_patterns

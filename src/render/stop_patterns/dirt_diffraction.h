@@ -43,6 +43,7 @@ class DirtDiffraction {
   [[nodiscard]] double transmission(Vec2 at_mm, double width_mm) const;
   [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm) const;
   [[nodiscard]] double fringe_unit_mm() const { return fringe_unit_mm_; }  // about a fringe's width
+  [[nodiscard]] std::size_t bytes() const;  // of shapes and of the tiles that were made
 
  private:
   static constexpr double kSamplesOfUnit = 8.0;

@@ -46,4 +46,10 @@ std::shared_ptr<const DirtDiffraction> DirtFringes::plane(const Request& request
   return found == planes_.end() ? nullptr : found->second;
 }
 
+std::size_t DirtFringes::memory_bytes() const {
+  std::size_t sum = 0;
+  for (const auto& [key, plane] : planes_) sum += plane->bytes();
+  return sum;
+}
+
 }  // namespace contrejour::inline internal::stop_patterns

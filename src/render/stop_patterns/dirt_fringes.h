@@ -4,6 +4,7 @@
 // Thread-safety: make() from one thread at a time; all else from any thread, afterwards.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <span>
@@ -18,6 +19,7 @@ namespace contrejour::inline internal::stop_patterns {
 
 class DirtFringes {
  public:
+  static constexpr std::size_t kMaxBytes = std::size_t{512} << 20U;  // from frame to frame
   struct Key {
     Dirt dirt;
     double extent_mm = 0.0;  // of its plane
@@ -35,6 +37,7 @@ class DirtFringes {
   bool make(const DirtField& field, std::span<const Request> requested, const Context& context);
   [[nodiscard]] std::shared_ptr<const DirtDiffraction> plane(const Request& requested) const;  // null unless made
   [[nodiscard]] std::size_t count() const { return planes_.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct PlaneKey {

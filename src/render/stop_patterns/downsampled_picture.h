@@ -22,6 +22,11 @@ class DownsampledPicture {
   // How often samples must be halved for bilinear interpolation to give the mean over a width; at least 0.
   [[nodiscard]] static double level_for(double width, int side, double extent);
   [[nodiscard]] double at(Vec2 p, double width) const;
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const Level& level : levels_) sum += level.samples.size() * sizeof(float);
+    return sum;
+  }
 
  private:
   struct Level {

@@ -24,6 +24,7 @@ class PatternTexture {
   [[nodiscard]] std::span<const float> samples() const { return picture_.samples(); }
   [[nodiscard]] double at(Vec2 p, double width) const { return picture_.at(p, width); }
   [[nodiscard]] double flux() const;  // integral over the plane
+  [[nodiscard]] std::size_t bytes() const { return picture_.bytes(); }  // of its samples
 
   // The radius beyond which the pattern is nowhere brighter than `level` and has only a small part of its flux.
   [[nodiscard]] double radius_above(double level) const;

@@ -175,4 +175,12 @@ StopPatterns::Band StopPatterns::band(std::span<const PatternTexture* const> par
   return band;
 }
 
+std::size_t StopPatterns::memory_bytes() const {
+  std::size_t sum = atlas_.bytes() + mask_.amplitude.size() * sizeof(float) + analysis_.size() * sizeof(analysis_[0]);
+  for (const auto& [fresnel, node] : nodes_) sum += node.samples.size() * sizeof(float);
+  for (const auto& [key, texture] : patterns_) sum += texture->bytes();
+  for (const auto& [orders, texture] : by_orders_) sum += texture ? texture->bytes() : 0;
+  return sum;
+}
+
 }  // namespace contrejour::inline internal::stop_patterns

@@ -26,6 +26,7 @@ namespace contrejour::inline internal::stop_patterns {
 class StopPatterns {
  public:
   using Key = Iris;
+  static constexpr std::size_t kMaxBytes = std::size_t{512} << 20U;  // from frame to frame
   using Texture = std::shared_ptr<const PatternTexture>;
   using Profile = std::shared_ptr<const EdgeProfile>;
   using Band = std::shared_ptr<const BandTexture>;
@@ -60,6 +61,7 @@ class StopPatterns {
 
   // The number of stored patterns; fringes of edges need little memory.
   [[nodiscard]] std::size_t count() const { return nodes_.size() + patterns_.size() + by_orders_.size(); }
+  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   struct BandKey {

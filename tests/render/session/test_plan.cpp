@@ -95,14 +95,15 @@ TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those me
     const auto measured = [&](const SpectralBand& band) {
       return GhostMeter(lens, band.lambda_nm).direct_flux(source);
     };
+    KeptFluxes kept(KeptFluxes::key_of(lens));
     MeteredLight metered{source, bands};
-    REQUIRE(measure_fluxes(lens, tables, {&metered, 1}, {}));
+    REQUIRE(measure_fluxes(lens, tables, kept, {&metered, 1}, {}));
     REQUIRE(metered.flux_mm2.size() == 16);
     for (std::size_t k = 0; k < bands.size(); ++k)
       CHECK(metered.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(2e-4));
     // With few bands all are measured, in the pupil of the middle one.
     MeteredLight few{source, std::span(bands).first(3)};
-    REQUIRE(measure_fluxes(lens, tables, {&few, 1}, {}));
+    REQUIRE(measure_fluxes(lens, tables, kept, {&few, 1}, {}));
     for (std::size_t k = 0; k < 3; ++k) CHECK(few.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(1e-4));
   }
 }

@@ -36,6 +36,13 @@ const LinearIrradiance* BoxMesh::keep(const std::optional<LinearIrradiance>& som
   return some ? &planes.emplace_front(*some) : nullptr;
 }
 
+std::size_t BoxCells::bytes() const {
+  std::size_t sum = nodes_.size() * sizeof(Node);
+  for (const BoxMesh& one : meshes_)
+    sum += sizeof(BoxMesh) + one.mesh.fields.size() * sizeof(Mesh::Field) + one.cells.capacity() * sizeof(ChosenCell);
+  return sum;
+}
+
 void BoxCells::clear() {
   count_ = 0;
   nodes_.clear();

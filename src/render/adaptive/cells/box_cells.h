@@ -104,6 +104,7 @@ class BoxCells {
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const BoxMesh& operator[](std::size_t k) const { return meshes_[k]; }
   void clear();
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
   static constexpr int kNone = -1;

@@ -62,6 +62,7 @@ struct CoverageSums {
     return storage_->sums.data() + static_cast<std::ptrdiff_t>(row) * pitch_ + (column - first_);
   }
   [[nodiscard]] Changed& changed_by(double sign) { return sign > 0.0 ? begun : ended; }
+  [[nodiscard]] std::size_t bytes() const { return storage_ ? sizeof(Storage) : 0; }
 
  private:
   struct alignas(64) Storage {  // with a vector beyond
@@ -109,6 +110,9 @@ struct TileSums {
   }
   [[nodiscard]] float* light_at(int row) {
     return light_->values.data() + kPixel * kPixelPitch * static_cast<std::size_t>(row);
+  }
+  [[nodiscard]] std::size_t bytes() const {
+    return sizeof(TileSums) + sizeof(Storage) + (light_ ? sizeof(Light) : 0) + cover.bytes();
   }
   // groups: a bit for each kBlock columns from `first` on.
   void light_groups(int row, int first, std::uint64_t groups) {

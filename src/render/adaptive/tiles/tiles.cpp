@@ -202,6 +202,10 @@ void TiledBatch::draw_row(const TileInput& input, int row, const TileCanvas& can
 TileRasteriser::TileRasteriser() = default;
 TileRasteriser::~TileRasteriser() = default;
 
+std::size_t TileRasteriser::bytes() const {
+  return sums_.bytes([](const TileSums& sums) { return sums.bytes(); });
+}
+
 std::unique_ptr<PolygonBatch> TileRasteriser::new_batch(int width, int height, const PatternAtlas* atlas) {
   return std::make_unique<TiledBatch>(TileGrid(width, height), atlas, sums_);
 }

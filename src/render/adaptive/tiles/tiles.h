@@ -66,6 +66,7 @@ class TileRasteriser final : public Rasteriser {
   ~TileRasteriser() override;
 
   [[nodiscard]] std::unique_ptr<PolygonBatch> new_batch(int width, int height, const PatternAtlas* atlas) override;
+  [[nodiscard]] std::size_t bytes() const;  // of scratch memory
 
  private:
   Pool<TileSums> sums_;  // a megabyte each, all zero between uses: one a thread instead of one a row

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/pupils/kept_pupils.h"
+
+#include <utility>
+
+namespace contrejour::inline internal::pupils {
+
+KeptPupils::Key KeptPupils::key_of(const LensState& lens) {
+  return {lens.surfaces,
+          lens.stop_index,
+          lens.stop_radius_mm,
+          lens.sensor_z_mm,
+          lens.design_wavelength_nm,
+          lens.sensor_grating.orders,
+          lens.sensor_grating.pitch_mm};
+}
+
+KeptPupils::PupilKey KeptPupils::key_of(const PupilRequest& request, Stage stage) {
+  const LightSource& light = request.light;
+  return {
+      stage, request.ghost,
+      NumberKey{light.direction.x, light.direction.y, light.direction.z, light.distance_mm, request.lambda_nm.front(),
+                middle_wavelength(request), request.lambda_nm.back(), request.stop_times}};
+}
+
+template <class Make>
+GhostPupil KeptPupils::get(const PupilRequest& request, Stage stage, const Make& make) {
+  if (request.lambda_nm.empty()) return make();
+  PupilKey key = key_of(request, stage);
+  if (auto kept = pupils_.find(key)) return {*std::move(kept)};
+  GhostPupil pupil = make();
+  pupils_.keep(std::move(key), pupil.boxes, kEntryBytes + pupil.boxes.size() * sizeof(Rectangle));
+  return pupil;
+}
+
+GhostPupil KeptPupils::search_ghost_pupil(const PupilRequest& request) {
+  return get(request, Stage::Searched, [&] { return pupils::search_ghost_pupil(request); });
+}
+
+GhostPupil KeptPupils::fit_ghost_pupil(const PupilRequest& request, GhostPupil searched) {
+  return get(request, Stage::Fitted, [&] { return pupils::fit_ghost_pupil(request, std::move(searched)); });
+}
+
+GhostPupil KeptPupils::find_ghost_pupil(const PupilRequest& request) {
+  return get(request, Stage::Fitted, [&] { return pupils::find_ghost_pupil(request); });
+}
+
+GhostPupil KeptPupils::refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes) {
+  return get(request, Stage::Refitted, [&] { return pupils::refit_ghost_pupil(request, std::move(boxes)); });
+}
+
+}  // namespace contrejour::inline internal::pupils
