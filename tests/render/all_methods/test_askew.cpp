@@ -5,7 +5,7 @@
 using namespace contrejour;
 using namespace contrejour::test;
 
-TEST_CASE("a lens with errors as in the reference, and unlike the lens as it ought to be") {
+TEST_CASE("a lens with errors as in the reference, and unlike the lens as it ought to be [slow]") {
   for (const char* name : {"heliar", "tessar"}) {
     const std::string what(name);
     CAPTURE(what);

@@ -28,7 +28,7 @@ std::vector<Case> cases() {
   LensSettings dusty{.f_number = 16.0, .iris = {6}};
   dusty.dirt.dust_per_cm2 = 30.0;
   const LensState dirty = bundled("heliar", dusty);
-  test::Settings plain = small_frame(clean, 96, 54);
+  test::Settings plain = small_frame(clean, 64, 36);
   plain.reference.density = 0.3;
   test::Settings ringing = plain, hullin = plain, starburst = plain;
   ringing.ringing.mode = RingingMode::Fresnel;
@@ -50,7 +50,7 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST_CASE("interrupted at any moment, a render refuses or has the whole flare") {
-  constexpr int kMoments = 20;
+  constexpr int kMoments = 10;
   for (const Case& c : cases()) {
     for_each_method([&](const Bounds& bounds) {
       if (bounds.method != render_methods().front() && c.is_of_the_driver) return;

@@ -88,7 +88,7 @@ TEST_CASE("a light at a kilometre is a distant one; at infinity to the last bit"
   });
 }
 
-TEST_CASE("lights at half a metre and nearer, as in the reference") {
+TEST_CASE("lights at half a metre and nearer, as in the reference [slow]") {
   struct Case {
     const char* lens;
     LensSettings settings;

@@ -194,7 +194,7 @@ TEST_CASE("blades of an iris, lights on the axis and outside the frame, as in th
   }
 }
 
-TEST_CASE("by default each channel has the light of many wavelengths, by every method") {
+TEST_CASE("by default each channel has the light of many wavelengths, by every method [slow]") {
   // Coatings with minima between three wavelengths: with only these, red and green had errors of 3 to 20 per cent.
   for (const auto& [name, f_number] : {std::pair{"tessar", 8.0}, std::pair{"muller-fisheye-10", 11.0}}) {
     CAPTURE(name);
