@@ -51,7 +51,7 @@ class KeptStarbursts {
   [[nodiscard]] std::size_t memory_bytes() const { return starbursts_.bytes(); }
 
  private:
-  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;  // some dozens
+  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;  // nine at 1920 x 1080
 
   [[nodiscard]] static NumberKey key_of(const Request& request);
   void keep(NumberKey key, const Starburst& starburst);
