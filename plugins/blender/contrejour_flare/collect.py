@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From a scene, at its present frame, to the request for its flare. This reads Blender's data, in the main thread."""
+"""From a scene, at the frame for which it is evaluated, to the request for its flare. This reads Blender's data."""
 from __future__ import annotations
 
 import numpy as np
@@ -17,13 +17,13 @@ def request_of(scene, depsgraph) -> FlareRequest:
     """Raises SceneError, or the library's errors."""
     original = camera_object(scene)
     camera = original.evaluated_get(depsgraph)
-    options, output = original.data.contrejour, scene.contrejour
+    options, output = camera.data.contrejour, scene.contrejour
     numbers = camera_of(scene, camera)
     view = view_of(numbers)
     frame = frame_of(numbers, view)
     mm_per_unit = 1000.0 * scene.unit_settings.scale_length
     lens, look = properties.lens_and_look(options)
-    settings, gain = properties.settings_of(options, look)
+    settings, gain = properties.settings_of(options, original.data, look)
     chosen = lens_choice.choose(lens, look, settings, _camera_lens(options, camera, mm_per_unit))
     settings.update(chosen.settings)
     occlusion = Occlusion(scene, depsgraph, camera, chosen.pupil_radius_mm / mm_per_unit)

@@ -51,7 +51,7 @@ class CONTREJOUR_OT_camera_to_lens(_CameraOperator, bpy.types.Operator):
     def change(self, camera) -> None:
         options = camera.contrejour
         lens, look = properties.lens_and_look(options)
-        settings = properties.settings_of(options, look)[0]
+        settings = properties.settings_of(options, camera, look)[0]
         state = library.load().configure_lens(lens, preset=look, **settings)
         camera.lens = state.first_order().focal_length_x_mm
         camera.sensor_width, camera.sensor_height = state.sensor_mm

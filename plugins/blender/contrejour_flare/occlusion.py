@@ -76,7 +76,7 @@ class Occlusion:
         slots = hit_object.material_slots
         if len(slots) == 0:
             return None
-        data = hit_object.evaluated_get(self._depsgraph).data
+        data = hit_object.evaluated_get(self._depsgraph).data  # of the faces that rays meet
         polygons = getattr(data, "polygons", ())
         index = polygons[face].material_index if 0 <= face < len(polygons) else 0
         return slots[min(index, len(slots) - 1)].material

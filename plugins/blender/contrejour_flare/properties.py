@@ -99,7 +99,7 @@ class ContrejourScene(bpy.types.PropertyGroup):
     half: BoolProperty(name="Half Float", description="16 bits a channel in place of 32")
     samples: IntProperty(
         name="Samples",
-        default=64,
+        default=128,
         min=1,
         max=4096,
         description="points on each light, each with a ray that finds what hides it",
@@ -177,9 +177,10 @@ def _animated_paths(data) -> set[str]:
     return {curve.data_path for curve in curves}
 
 
-def settings_of(options, look: str | None) -> tuple[dict, float]:
-    """The keyword arguments that a camera's properties stand for, and the gain, which is not the library's."""
-    animated = _animated_paths(options.id_data)
+def settings_of(options, camera, look: str | None) -> tuple[dict, float]:
+    """The keyword arguments that a camera's properties stand for, and the gain, which is not the library's. camera: the
+    original data, which has the animation; the options may be those of its evaluated copy."""
+    animated = _animated_paths(camera)
     settings = {}
     for row in table():
         value = setting(row, getattr(options, row.attribute), f"contrejour.{row.attribute}" in animated)

@@ -2,7 +2,8 @@
 """Render Flare and Render Flare Animation.
 
 With a window they run as modal operators: Blender's data is read in the main thread, the library renders in another one,
-a timer looks after it, and Esc ends it. In background mode, and from scripts, they run at once.
+and a timer looks after it. Esc ends the operator at once; the library may take some seconds more to end its call, and
+then writes nothing. In background mode, and from scripts, they run in the main thread.
 """
 import threading
 
@@ -26,20 +27,22 @@ class _Render(threading.Thread):
         super().__init__(name="contrejour")
         self.progress, self.error = 0.0, None
         self._request, self._file, self._half = request, file, half
-        self._stop = threading.Event()
+        self._unwanted = threading.Event()
 
     def run(self) -> None:
         try:
-            flare_request.write(flare_request.render(self._request, self._report), self._file, self._half)
+            picture = flare_request.render(self._request, self._report)
+            if not self._unwanted.is_set():
+                flare_request.write(picture, self._file, self._half)
         except BaseException as error:  # it is raised again in the main thread
             self.error = error
 
     def stop(self) -> None:
-        self._stop.set()
+        self._unwanted.set()
 
     def _report(self, fraction: float) -> None:
         self.progress = fraction
-        if self._stop.is_set():
+        if self._unwanted.is_set():
             raise _Stopped
 
 
@@ -47,9 +50,8 @@ def flare_file(scene, frame: int) -> str:
     return bpy.path.abspath(frame_file(scene.contrejour.output, frame))
 
 
-def render_now(scene, depsgraph) -> list[str]:
-    """Renders the present frame to its file, and returns what there is to know of it."""
-    request = collect.request_of(scene, depsgraph)
+def render_to_file(request, scene) -> list[str]:
+    """Renders a request to the file of the present frame, and returns what there is to know of it."""
     picture = flare_request.render(request)
     flare_request.write(picture, flare_file(scene, scene.frame_current), scene.contrejour.half)
     return request.messages
@@ -79,7 +81,7 @@ class _FlareOperator:
         try:
             for frame in self.frames(scene):
                 self._go_to(scene, frame)
-                said += render_now(scene, context.evaluated_depsgraph_get())
+                said += render_to_file(collect.request_of(scene, context.evaluated_depsgraph_get()), scene)
                 self._done(scene, frame)
         except messages.expected_errors() as error:
             return self._failed(scene, error)
@@ -91,7 +93,7 @@ class _FlareOperator:
     def invoke(self, context, _event):
         self._scene, self._start, self._said = context.scene, context.scene.frame_current, []
         self._left, self._render = list(self.frames(context.scene)), None
-        self._count, self._is_stopped = len(self._left), False
+        self._count = len(self._left)
         manager = context.window_manager
         self._timer = manager.event_timer_add(_POLL_SECONDS, window=context.window)
         manager.progress_begin(0, 100)
@@ -100,9 +102,9 @@ class _FlareOperator:
 
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS":
-            self._is_stopped = True
-            if self._render is not None:
-                self._render.stop()
+            self._end(context)
+            self.report({"WARNING"}, "Flare: stopped")
+            return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         try:
@@ -117,16 +119,12 @@ class _FlareOperator:
             if self._render.is_alive():
                 self._show_progress(context)
                 return {"RUNNING_MODAL"}
-            if self._render.error is not None and not isinstance(self._render.error, _Stopped):
+            if self._render.error is not None:
                 raise self._render.error
-            if self._render.error is None:
-                self._done(self._scene, self._frame)
+            self._done(self._scene, self._frame)
             self._render = None
-        if self._is_stopped or not self._left:
+        if not self._left:
             self._end(context)
-            if self._is_stopped:
-                self.report({"WARNING"}, "Flare: stopped")
-                return {"CANCELLED"}
             self._say(self._scene, self._said)
             return {"FINISHED"}
         self._frame = self._left.pop(0)
@@ -146,7 +144,6 @@ class _FlareOperator:
     def _end(self, context) -> None:
         if self._render is not None:
             self._render.stop()
-            self._render.join()
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)

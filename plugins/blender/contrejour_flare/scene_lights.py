@@ -22,7 +22,7 @@ def sources_of(scene, depsgraph, camera, samples: int) -> Iterator[Source]:
     cache = EmissionCache()
     for instance in depsgraph.object_instances:
         evaluated = instance.object
-        settings = evaluated.original.contrejour
+        settings = evaluated.contrejour
         if evaluated.hide_render or not settings.use or not instance.show_self:
             continue
         source = None
@@ -36,7 +36,8 @@ def sources_of(scene, depsgraph, camera, samples: int) -> Iterator[Source]:
         source.is_hideable = settings.use_occlusion
         source.spectrum = settings.spectrum.strip() or "D65"
         yield source
-    sun = _sky_sun(scene.world, to_camera, samples)
+    world = scene.world.evaluated_get(depsgraph) if scene.world is not None else None
+    sun = _sky_sun(world, to_camera, samples)
     if sun is not None:
         sun.intensity = sun.intensity * exposure
         yield sun
