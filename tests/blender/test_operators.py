@@ -192,6 +192,10 @@ class AnimationTest(OperatorTest):
         np.testing.assert_allclose(brighter[1], plain[1] + self.frames()[1], rtol=1e-5, atol=1e-6)
 
     def test_after_each_frame(self):
+        self.options.blades = 5
+        self.options.keyframe_insert("blades", frame=1)
+        self.options.blades = 9
+        self.options.keyframe_insert("blades", frame=3)
         self.scene.contrejour.with_render = "AFTER"
         self.composited()
         by_handler = self.frames()
@@ -282,7 +286,7 @@ class RegisterTest(unittest.TestCase):
             contrejour_flare.unregister()
             self.assertFalse(hasattr(bpy.types.Camera, "contrejour"))
             contrejour_flare.register()
-        handlers = bpy.app.handlers.render_pre
+        handlers = bpy.app.handlers.render_post
         self.assertEqual(sum(handler.__module__.startswith("contrejour_flare") for handler in handlers), 1)
 
     def test_panels_show_every_parameter(self):

@@ -8,7 +8,7 @@ from . import lens_choice, properties
 from .flare_request import FlareRequest, light_text
 from .occlusion import Occlusion
 from .projection import View, frame_of, position_in_frame, view_of
-from .scene_camera import camera_object, camera_of, focus_distance
+from .scene_camera import camera_object, camera_of, focus_distance, settled
 from .scene_lights import sources_of
 from .sources import FlareLight, brightest, image_of, lights_of
 
@@ -17,7 +17,7 @@ def request_of(scene, depsgraph) -> FlareRequest:
     """Raises SceneError, or the library's errors."""
     original = camera_object(scene)
     camera = original.evaluated_get(depsgraph)
-    options, output = camera.data.contrejour, scene.contrejour
+    options, output = settled(camera, depsgraph).data.contrejour, scene.contrejour
     numbers = camera_of(scene, camera)
     view = view_of(numbers)
     frame = frame_of(numbers, view)

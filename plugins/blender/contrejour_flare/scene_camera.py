@@ -23,6 +23,12 @@ def camera_object(scene):
     return camera
 
 
+def settled(evaluated, depsgraph):
+    """The object whose properties of this add-on hold: scripts change them without Blender's evaluating the object anew,
+    so that the original one has them; but while a frame is rendered, its own copy alone has animated values."""
+    return evaluated if depsgraph.mode == "RENDER" else evaluated.original
+
+
 def camera_of(scene, camera) -> Camera:
     """Of an evaluated camera object."""
     data, render = camera.data, scene.render

@@ -10,6 +10,7 @@ from mathutils import Vector
 
 from . import photometry, shader_nodes, sky
 from .mesh_lights import MESH_TYPES, EmissionCache, emissions, emitting_points
+from .scene_camera import settled
 from .sources import Source, disc_points, square_points
 
 _LEAST_RADIUS = 1e-6  # below it a lamp is a point, in the scene's units
@@ -22,7 +23,7 @@ def sources_of(scene, depsgraph, camera, samples: int) -> Iterator[Source]:
     cache = EmissionCache()
     for instance in depsgraph.object_instances:
         evaluated = instance.object
-        settings = evaluated.contrejour
+        settings = settled(evaluated, depsgraph).contrejour
         if evaluated.hide_render or not settings.use or not instance.show_self:
             continue
         source = None
