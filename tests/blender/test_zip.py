@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The zip file of the add-on: Blender installs it, enables it, and it renders with the package inside.
+"""The zip file of the add-on: Blender installs it, enables it, and it renders with the package inside, the example too.
 
     test_zip.py BUILD/python
 """
@@ -44,6 +44,11 @@ def main(package_folder):
         done = subprocess.run([*command, "--python-expr", script], capture_output=True, text=True, env=environment)
         print(done.stdout, done.stderr)
         assert done.returncode == 0 and output.exists()
+        street = [*command, "--python", str(ROOT / "examples" / "blender" / "street.py"), "--", str(folder), "sixties-normal"]
+        done = subprocess.run([*street, "64", "1"], capture_output=True, text=True, env=environment)
+        print(done.stdout, done.stderr)
+        assert done.returncode == 0 and (folder / "street.png").exists()
+        assert "Headlight: at" in done.stdout
     return 0
 
 
