@@ -28,7 +28,7 @@ def ghost_flux(state, coating):
 
 def search(state, trials, seed):
     random = np.random.default_rng(seed)
-    best_nm, step = np.array(START_NM), 0.1
+    best_nm, step = np.array(START_NM), 0.2
     best = ghost_flux(state, text(best_nm))
     for _ in range(trials):
         child_nm = np.clip(best_nm * np.exp(step * random.standard_normal(len(best_nm))), 5.0, 500.0)
