@@ -6,6 +6,7 @@ import bpy
 from .properties import table
 
 _IN_FIRST_PANEL = ("gain", "stops")
+_LABELS = {"Lens": "Lens Settings", "Lights": "Further Lights"}  # of groups whose own name would mislead here
 
 
 class _CameraPanel:
@@ -63,7 +64,7 @@ def _group_panel(group: str, attributes: list[str]) -> type:
             column.prop(context.camera.contrejour, attribute)
 
     members = {
-        "bl_label": "Further Lights" if group == "Lights" else group,
+        "bl_label": _LABELS.get(group, group),
         "bl_parent_id": "CONTREJOUR_PT_lens",
         "bl_options": {"DEFAULT_CLOSED"},
         "draw": draw,

@@ -80,7 +80,7 @@ AUTOMATIC = "automatic"
 def _label(parameter) -> str:
     label = parameter.name.replace("-", " ").capitalize()
     is_number = parameter.kind in ("real", "integer")
-    return f"{label} ({parameter.unit})" if is_number and parameter.unit not in ("", "N") else label
+    return f"{label} ({parameter.unit})" if is_number and parameter.unit not in ("", "N", parameter.name.upper()) else label
 
 
 def _number(parameter, common: dict) -> Row:
