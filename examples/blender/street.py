@@ -67,7 +67,8 @@ def build(scene):
             height = choose.uniform(6, 13)
             box((side * 9, 4 + 10 * k, height / 2), (6, 9.5, height), wall)
             for _ in range(3):
-                box((side * 5.99, choose.uniform(10 * k, 8 + 10 * k), choose.uniform(2, height - 1)), (0.05, 0.8, 1.1), window)
+                middle = (side * 5.99, choose.uniform(10 * k, 8 + 10 * k), choose.uniform(2, height - 1))
+                box(middle, (0.05, 0.8, 1.1), window)
         for k in range(4):
             street_lamp(side * 4.8, 8 + 13 * k + 4 * (side > 0), pole, bulb)
     for x in (-2.3, -1.0):

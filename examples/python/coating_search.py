@@ -3,8 +3,8 @@
 
     python3 coating_search.py [LENS] [TRIALS] [SEED]
 
-An evolution strategy of one parent and one child (Rechenberg 1973): it needs no gradient. Steps grow after a success and
-shrink otherwise, so that about one in five succeeds.
+An evolution strategy of one parent and one child (Rechenberg 1973): it needs no gradient. Steps grow after a success
+and shrink otherwise, so that about one in five succeeds.
 """
 import sys
 

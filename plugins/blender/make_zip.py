@@ -13,7 +13,7 @@ EPOCH = (2000, 1, 1, 0, 0, 0)  # the same files make the same zip
 
 def add_folder(archive, folder, inside):
     for file in sorted(folder.rglob("*")):
-        if not file.is_file() or "__pycache__" in file.parts or (file.suffix or file.name) not in SUFFIXES | {"py.typed"}:
+        if not file.is_file() or "__pycache__" in file.parts or file.suffix not in SUFFIXES:
             continue
         entry = zipfile.ZipInfo(f"{inside}/{file.relative_to(folder).as_posix()}", EPOCH)
         entry.external_attr = 0o644 << 16

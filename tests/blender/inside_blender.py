@@ -10,6 +10,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "plugins" / "blender")]
 import contrejour_flare  # noqa: E402
 
 contrejour_flare.register()
-result = unittest.TextTestRunner(verbosity=2).run(unittest.defaultTestLoader.loadTestsFromNames(sys.argv[sys.argv.index("--") + 1 :]))
+tests = unittest.defaultTestLoader.loadTestsFromNames(sys.argv[sys.argv.index("--") + 1 :])
+result = unittest.TextTestRunner(verbosity=2).run(tests)
 contrejour_flare.unregister()
 sys.exit(0 if result.wasSuccessful() else 1)

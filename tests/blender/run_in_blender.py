@@ -16,7 +16,7 @@ SKIPPED = 77
 
 def blender_command(environment=None):
     """How to start it, or None and the reason why not."""
-    blender = os.environ.get("BLENDER") or shutil.which("blender")
+    blender = shutil.which(os.environ.get("BLENDER", "blender"))
     if blender is None:
         return None, "SKIPPED: there is no Blender here (./dev blender installs Debian's)"
     command = [blender, "--background", "--factory-startup", "--python-exit-code", "1"]

@@ -28,7 +28,8 @@ class ProjectionTest(unittest.TestCase):
             render.pixel_aspect_x, render.pixel_aspect_y = choose.choice([(1, 1), (2, 1), (1, 1.5), (1.3, 1)])
             data = camera.data
             data.sensor_fit = choose.choice(["AUTO", "HORIZONTAL", "VERTICAL"])
-            data.lens, data.sensor_width, data.sensor_height = (choose.uniform(*r) for r in ((10, 200), (5, 60), (5, 60)))
+            data.lens = choose.uniform(10, 200)
+            data.sensor_width, data.sensor_height = choose.uniform(5, 60), choose.uniform(5, 60)
             data.shift_x, data.shift_y = choose.uniform(-1, 1), choose.uniform(-1, 1)
             camera.location = [choose.uniform(-5, 5) for _ in range(3)]
             camera.rotation_euler = [choose.uniform(-3, 3) for _ in range(3)]
@@ -55,7 +56,7 @@ class ProjectionTest(unittest.TestCase):
 
 
 class ValuesTest(TemporaryFolderTest):
-    """What a light's image sums to, beside the sum of what Cycles renders."""
+    """The sum of a light's image, beside the sum of what Cycles renders."""
 
     def assert_as_rendered(self, scene, light, tolerance):
         picture = rendered(scene, self.folder)[..., :3].astype(float)
@@ -112,7 +113,8 @@ class ValuesTest(TemporaryFolderTest):
     def test_sky(self):
         scene = new_scene()
         add_sky(scene, 30, 40)
-        direction = Vector((math.sin(math.radians(40)), math.cos(math.radians(40)), math.tan(math.radians(30)) ))
+        turn, height = math.radians(40), math.radians(30)
+        direction = Vector((math.sin(turn), math.cos(turn), math.tan(height)))
         scene.camera.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
         scene.camera.data.lens = 200
         bpy.context.view_layer.update()
@@ -124,7 +126,7 @@ class ValuesTest(TemporaryFolderTest):
 
     def test_sun(self):
         scene = new_scene()
-        add_lamp("SUN", rotation=(math.pi, 0, 0), energy=4.0, angle=math.radians(0.53))  # shines along +z, to the camera
+        add_lamp("SUN", rotation=(math.pi, 0, 0), energy=4.0, angle=math.radians(0.53))  # shines along +z
         (light,) = lights(scene)
         self.assertAlmostEqual(light.size_deg, 0.53, places=3)
         self.assertEqual(light.distance, math.inf)

@@ -15,13 +15,14 @@ package = types.ModuleType("contrejour_flare")  # its __init__ is Blender's busi
 package.__path__ = [str(ADDON)]
 sys.modules["contrejour_flare"] = package
 
-from contrejour_flare import flare_request, lens_choice, parameter_rows, photometry, projection, sky, sources  # noqa: E402
+from contrejour_flare import flare_request, lens_choice, parameter_rows  # noqa: E402
+from contrejour_flare import photometry, projection, sky, sources  # noqa: E402
 from contrejour_flare.frame_files import frame_file  # noqa: E402
 
 
 def camera(**changes):
-    plain = dict(focal_mm=50.0, sensor_width_mm=36.0, sensor_height_mm=24.0, sensor_fit="AUTO", shift_x=0.0, shift_y=0.0,
-                 width=1920, height=1080)
+    plain = dict(focal_mm=50.0, sensor_width_mm=36.0, sensor_height_mm=24.0, sensor_fit="AUTO", shift_x=0.0,
+                 shift_y=0.0, width=1920, height=1080)
     return projection.Camera(**{**plain, **changes})
 
 
@@ -42,7 +43,7 @@ class ProjectionTest(unittest.TestCase):
         x, y = np.meshgrid((np.arange(192) + 0.5) / 192 - 0.5, (np.arange(108) + 0.5) / 108 - 0.5)
         tangents = np.stack([x.ravel() * view.tangent_width, y.ravel() * view.tangent_height], axis=1)
         a, b = 0.5 * view.tangent_width, 0.5 * view.tangent_height
-        whole = 4 * math.atan(a * b / math.sqrt(1 + a * a + b * b))  # of a rectangle seen from above its middle
+        whole = 4 * math.atan(a * b / math.sqrt(1 + a * a + b * b))  # of a rectangle, from a point above its middle
         self.assertAlmostEqual(view.pixel_solid_angle(tangents).sum() / whole, 1.0, places=4)
 
     def test_frame_of_a_shifted_picture(self):
@@ -51,7 +52,8 @@ class ProjectionTest(unittest.TestCase):
             view = projection.view_of(numbers)
             frame = projection.frame_of(numbers, view)
             self.assertEqual((frame.right - frame.left, frame.bottom - frame.top), (200, 100))
-            self.assertTrue(frame.left >= 0 and frame.top >= 0 and frame.right <= frame.width and frame.bottom <= frame.height)
+            self.assertGreaterEqual(min(frame.left, frame.top), 0)
+            self.assertTrue(frame.right <= frame.width and frame.bottom <= frame.height)
             axis = projection.position_in_frame(view, frame, np.array([view.axis()]))[0]
             self.assertLessEqual(abs(axis[0] - 0.5) * frame.width, 0.25 + 1e-9)
             self.assertLessEqual(abs(axis[1] - 0.5) * frame.height, 0.25 + 1e-9)
@@ -67,14 +69,15 @@ class ProjectionTest(unittest.TestCase):
 class PhotometryTest(unittest.TestCase):
     def test_spot_as_cycles_renders_it(self):
         # Intensities of a spot of 100 W, cone 80 degrees, that Cycles 3.4 gives a small plane at these angles.
-        for blend, measured in ((0.5, {0: 7.9577, 0.2: 7.7990, 0.4: 7.3295, 0.6: 3.3514}), (0.0, {0.4: 7.3295, 0.6: 6.5678})):
+        soft, hard = {0: 7.9577, 0.2: 7.7990, 0.4: 7.3295, 0.6: 3.3514}, {0.4: 7.3295, 0.6: 6.5678}
+        for blend, measured in ((0.5, soft), (0.0, hard)):
             for angle, intensity in measured.items():
                 factor = photometry.spot_factor(math.cos(angle), math.radians(80), blend)
                 self.assertAlmostEqual(photometry.point_intensity(100) * factor / intensity, 1, delta=2e-3)
         self.assertEqual(photometry.spot_factor(math.cos(0.8), math.radians(80), 0.5), 0.0)
 
     def test_area_as_cycles_renders_it(self):
-        # Of 100 W, side 0.1: without a spread, and with 1.5 rad, at the same angles.
+        # The lamp has 100 W and the side 0.1: without a spread, and with 1.5 rad, at the same angles.
         for spread, measured in ((math.pi, {0: 24.986, 0.4: 23.013}), (1.5, {0.2: 98.279, 0.4: 64.479, 0.6: 28.104})):
             for angle, intensity in measured.items():
                 cosine = np.array([math.cos(angle)])
@@ -116,7 +119,7 @@ class SourcesTest(unittest.TestCase):
     view = projection.view_of(camera())
 
     def test_value(self):
-        # Intensity 5 at the distance 10 gives the irradiance 0.05; a pixel on the axis has the solid angle (0.72/1920)^2.
+        # Intensity 5 at the distance 10 gives the irradiance 0.05; a pixel on the axis has (0.72/1920)^2 steradians.
         (light,) = sources.lights_of(lamp(radius=0.1), self.view, np.ones(64))
         self.assertAlmostEqual(light.value[0] / (0.05 / (0.72 / 1920) ** 2), 1, delta=1e-3)
         self.assertAlmostEqual(light.size_deg, 2 * math.degrees(math.asin(0.01)), places=6)
@@ -169,8 +172,8 @@ class RowsTest(unittest.TestCase):
             self.assertTrue(row.description and row.label)
 
     def test_a_new_row_appears(self):
-        new = contrejour.Parameter(name="new-thing", group="New", kind="real", unit="mm", minimum=0, maximum=2, default="1",
-                                   help="a new thing", choices=(), repeats=False, scene=False)
+        new = contrejour.Parameter(name="new-thing", group="New", kind="real", unit="mm", minimum=0, maximum=2,
+                                   default="1", help="a new thing", choices=(), repeats=False, scene=False)
         (row,) = parameter_rows.rows([new])
         self.assertEqual((row.attribute, row.label, row.default, row.maximum), ("new_thing", "New thing (mm)", 1.0, 2))
 
@@ -182,7 +185,8 @@ class RowsTest(unittest.TestCase):
         f_number = self.rows["fnumber"]
         self.assertIsNone(parameter_rows.setting(f_number, 0.0, is_animated=True))
         self.assertEqual(parameter_rows.setting(f_number, 5.599999904632568), "5.6")
-        self.assertEqual(parameter_rows.setting(self.rows["ghost"], "2-5:gain=0.5; 1-3:gain=2"), ["2-5:gain=0.5", "1-3:gain=2"])
+        texts = parameter_rows.setting(self.rows["ghost"], "2-5:gain=0.5; 1-3:gain=2")
+        self.assertEqual(texts, ["2-5:gain=0.5", "1-3:gain=2"])
 
     def test_settings_are_what_the_library_takes(self):
         for name in contrejour.bundled_presets():

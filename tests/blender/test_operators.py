@@ -64,7 +64,8 @@ class StillTest(OperatorTest):
             done = subprocess.run(words, capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             frame = request.frame
-            expected = contrejour.read_picture(self.folder / "cli.exr")[frame.top : frame.bottom, frame.left : frame.right]
+            expected = contrejour.read_picture(self.folder / "cli.exr")
+            expected = expected[frame.top : frame.bottom, frame.left : frame.right]
             bpy.ops.contrejour.render_flare()
             self.assertGreater(expected.max(), 0)
             self.assertEqual(contrejour.read_picture(self.file()).tobytes(), expected.tobytes())
@@ -208,7 +209,7 @@ class AnimationTest(OperatorTest):
 
 
 class _Window:
-    """What modal operators use of a window manager and a workspace."""
+    """The parts of a window manager and a workspace that modal operators use."""
 
     def __init__(self):
         self.texts, self.has_timer = [], True

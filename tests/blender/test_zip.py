@@ -33,7 +33,8 @@ def main(package_folder):
         zip_file, output = folder / "contrejour_flare.zip", folder / "flare_0001.exr"
         plugin = ROOT / "plugins" / "blender"
         package = pathlib.Path(package_folder) / "contrejour"
-        subprocess.run([sys.executable, plugin / "make_zip.py", plugin / "contrejour_flare", package, zip_file], check=True)
+        pack = [sys.executable, plugin / "make_zip.py", plugin / "contrejour_flare", package, zip_file]
+        subprocess.run(pack, check=True)
         command, reason = blender_command({"PYTHONPATH": package_folder})
         if command is None:
             print(reason)
@@ -44,8 +45,9 @@ def main(package_folder):
         done = subprocess.run([*command, "--python-expr", script], capture_output=True, text=True, env=environment)
         print(done.stdout, done.stderr)
         assert done.returncode == 0 and output.exists()
-        street = [*command, "--python", str(ROOT / "examples" / "blender" / "street.py"), "--", str(folder), "sixties-normal"]
-        done = subprocess.run([*street, "64", "1"], capture_output=True, text=True, env=environment)
+        street = str(ROOT / "examples" / "blender" / "street.py")
+        arguments = ["--python", street, "--", str(folder), "sixties-normal", "64", "1"]
+        done = subprocess.run([*command, *arguments], capture_output=True, text=True, env=environment)
         print(done.stdout, done.stderr)
         assert done.returncode == 0 and (folder / "street.png").exists()
         assert "Headlight: at" in done.stdout

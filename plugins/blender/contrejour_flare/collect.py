@@ -57,7 +57,9 @@ def _visible_lights(sources, view: View, occlusion: Occlusion, count: int) -> tu
     return kept, []
 
 
-def _add_picture(settings: dict, lights: list[FlareLight], view, frame, mm_per_unit: float, first_surface_mm: float) -> None:
+def _add_picture(
+    settings: dict, lights: list[FlareLight], view, frame, mm_per_unit: float, first_surface_mm: float
+) -> None:
     """The picture's size and field, and its lights before those that are given as text."""
     positions = position_in_frame(view, frame, np.array([(light.u, light.v) for light in lights]).reshape(-1, 2))
     texts = [

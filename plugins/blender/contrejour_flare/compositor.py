@@ -70,7 +70,8 @@ class CONTREJOUR_OT_flare_to_compositor(bpy.types.Operator):
         add_nodes(scene)
         file = flare_file(scene, scene.frame_current)
         if not os.path.exists(file) and scene.contrejour.with_render != "BEFORE":
-            self.report({"WARNING"}, f"{file} is not there yet: render the flare first, or set With Each Frame to Before")
+            remedy = "render the flare first, or set With Each Rendered Frame to Before"
+            self.report({"WARNING"}, f"{file} is not there yet: {remedy}")
         return {"FINISHED"}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One frame's flare as plain data, and how it is rendered. It holds nothing of Blender, so that any thread may run it."""
+"""One frame's flare as plain data, and how it is rendered. Nothing here is Blender's, so any thread may run it."""
 from __future__ import annotations
 
 import math

@@ -2,8 +2,9 @@
 """Flares with each frame that Blender renders.
 
 Blender evaluates a frame that it renders apart from the scene that is shown, and hands over the result in one place
-only: the handler of a changed frame, before the frame is rendered, for stills too. There the lights are read. Before: the
-flare is rendered at once, and its file is there when the compositor wants it. After: when the frame is done.
+only: the handler of a changed frame, before the frame is rendered, for stills too. The lights are read there. With
+BEFORE the flare is rendered at once, so that its file is there when the compositor wants it; with AFTER, when the frame
+is done.
 """
 import bpy
 from bpy.app.handlers import persistent

@@ -12,7 +12,7 @@ _AGREES = 0.03  # relative difference of two focal lengths below which nobody se
 
 @dataclass(frozen=True)
 class CameraLens:
-    """What the camera says of its lens; None where the parameters hold."""
+    """The camera's statements on its lens; None where the parameters hold."""
 
     focal_mm: float
     f_number: Optional[float]

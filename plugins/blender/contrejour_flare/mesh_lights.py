@@ -10,7 +10,7 @@ MESH_TYPES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 
 
 class EmissionCache:
-    """What materials emit; a scene's many objects share them."""
+    """The emission of materials, which the objects of a scene share."""
 
     def __init__(self) -> None:
         self._known = {}
@@ -24,7 +24,7 @@ class EmissionCache:
 
 
 def emissions(evaluated, cache: EmissionCache) -> np.ndarray:
-    """Of the object's material slots (m, 3)."""
+    """The radiance of each of the object's material slots (m, 3)."""
     return np.array([cache.of(slot.material) for slot in evaluated.material_slots]).reshape(-1, 3)
 
 
@@ -50,7 +50,7 @@ def emitting_points(evaluated, to_camera, slots: np.ndarray, count: int):
         volume = np.sum(normals * middles)
         towards = np.maximum(0.0, towards if volume >= 0.0 else -towards)
     intensity = radiance * np.abs(towards)[:, None]
-    # What counts in the picture is the intensity by the square of the distance.
+    # The picture receives the intensity by the square of the distance.
     weights = (intensity @ np.ones(3)) * distances**-2.0 * (middles[:, 2] < 0.0)
     total = weights.sum()
     if total <= 0.0:
@@ -79,7 +79,7 @@ def _triangles(mesh, to_camera):
 
 
 def _is_closed(triangles: np.ndarray) -> bool:
-    """Whether each edge is used once in each direction."""
+    """True if each edge is used once in each direction."""
     if len(triangles) == 0:
         return False
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What went wrong, as one line for a person."""
+"""Errors as one line for a person."""
 from __future__ import annotations
 
 from . import library

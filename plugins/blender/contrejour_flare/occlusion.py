@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What hides lights from the camera, by ray casts.
+"""Objects that hide lights from the camera, found by ray casts.
 
 The k-th ray goes from a point of the lens's entrance pupil to the k-th point of a source, so that the part that gets
 through falls smoothly as an edge passes the light or the pupil.

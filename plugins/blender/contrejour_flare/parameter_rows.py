@@ -39,7 +39,7 @@ class Row:
 
 
 def belongs(parameter) -> bool:
-    """Whether a row of the table has a use in Blender."""
+    """True for a row of the table that has a use in Blender."""
     if parameter.name in _OF_THE_SCENE:
         return False
     if parameter.group == "Lights":
@@ -80,7 +80,8 @@ AUTOMATIC = "automatic"
 def _label(parameter) -> str:
     label = parameter.name.replace("-", " ").capitalize()
     is_number = parameter.kind in ("real", "integer")
-    return f"{label} ({parameter.unit})" if is_number and parameter.unit not in ("", "N", parameter.name.upper()) else label
+    has_unit = is_number and parameter.unit not in ("", "N", parameter.name.upper())
+    return f"{label} ({parameter.unit})" if has_unit else label
 
 
 def _number(parameter, common: dict) -> Row:

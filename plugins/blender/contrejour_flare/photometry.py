@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Blender's lamps send to the camera. docs/blender.md has the formulas and how they were checked against Cycles.
+"""Intensities and radiances of Blender's lamps. docs/blender.md has the formulas, and how Cycles confirmed them.
 
-Intensities are per steradian, radiances per steradian and square unit of length, in the units that a rendered pixel has.
+Intensities are per steradian, radiances per steradian and square unit of length, in a rendered pixel's units.
 """
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 
 
 def point_intensity(power: float) -> float:
-    """Of a point lamp, alike in all directions."""
+    """A point lamp's intensity is alike in all directions."""
     return power / (4.0 * math.pi)
 
 
 def spot_factor(cosine: float, cone_rad: float, blend: float) -> float:
-    """What remains of a spot's intensity at an angle to its axis: Cycles has the cosine, and a smooth step at the
-    cone's edge. cone_rad is the whole angle."""
+    """The part of a spot's intensity that remains at an angle to its axis: Cycles has the cosine, and a smooth step at
+    the cone's edge. cone_rad is the whole angle."""
     edge = math.cos(0.5 * cone_rad)
     inside = cosine - edge
     if inside <= 0.0:
@@ -30,12 +30,12 @@ def spot_factor(cosine: float, cone_rad: float, blend: float) -> float:
 
 
 def area_radiance(power: float, area: float) -> float:
-    """Of an area lamp seen from its front."""
+    """An area lamp's radiance at its front."""
     return power / (4.0 * area) if area > 0.0 else 0.0
 
 
 def spread_factor(cosines: np.ndarray, spread_rad: float) -> np.ndarray:
-    """What an area lamp's spread (the whole angle, pi: none) makes of its radiance; the power stays the same."""
+    """The factor by which an area lamp's spread (the whole angle, pi: none) changes its radiance at equal power."""
     half = 0.5 * spread_rad
     cosines = np.maximum(cosines, 1e-9)
     if half >= 0.5 * math.pi - 1e-6:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A camera's projection as numbers: points and directions in front of it to positions in its picture.
 
-Tangents are those of the angles to the camera's axis, x to the right and y up. A position u, v has 0, 0 at the picture's
-top left corner and 1, 1 at its bottom right one. No part of Blender is needed here.
+Tangents are those of the angles to the camera's axis, x to the right and y up. A position u, v has 0, 0 at the
+picture's top left corner and 1, 1 at its bottom right one. No part of Blender is needed here.
 """
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class View:
         return float(u), float(v)
 
     def pixel_solid_angle(self, tangents: np.ndarray) -> np.ndarray:
-        """Of the pixels there, in steradians: their area on the plane at distance 1 by the cube of the cosine."""
+        """A pixel there has this many steradians: its area on the plane at distance 1 by the cube of the cosine."""
         area = (self.tangent_width / self.width) * (self.tangent_height / self.height)
         return area * (1.0 + np.sum(tangents**2, axis=1)) ** -1.5
 
@@ -98,7 +98,7 @@ class Frame:
 
 
 def frame_of(camera: Camera, view: View) -> Frame:
-    """The smallest frame with the axis in its middle that holds the picture. A shifted axis is rounded to half a pixel."""
+    """The smallest frame around the axis that holds the picture. A shifted axis is rounded to half a pixel."""
     axis_u, axis_v = view.axis()
     width, offset_x = _centred(axis_u, view.width)
     height, offset_y = _centred(axis_v, view.height)

@@ -3,7 +3,15 @@
 import functools
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from . import library
 from .parameter_rows import Row, rows, setting, value_of_setting
@@ -48,7 +56,7 @@ def _look_names(_self, _context, text):
 
 
 class CameraOptions:
-    """What every camera has besides the table's parameters."""
+    """Every camera has these besides the table's parameters."""
 
     lens: StringProperty(
         name="Lens", search=_lens_names, description=f"a bundled lens; empty: the look's, or {DEFAULT_LENS}"
@@ -130,7 +138,9 @@ class ContrejourObject(bpy.types.PropertyGroup):
         name="Spectrum",
         description="within each channel: D65, 3200K, sodium, led, fluorescent, or a file; empty: D65",
     )
-    use_occlusion: BoolProperty(name="Can Be Hidden", default=True, description="objects in front of this light hide it")
+    use_occlusion: BoolProperty(
+        name="Can Be Hidden", default=True, description="objects in front of this light hide it"
+    )
     hides_lights: BoolProperty(name="Hides Lights", default=True, description="this object hides lights behind it")
 
 

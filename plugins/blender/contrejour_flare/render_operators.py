@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Render Flare and Render Flare Animation.
 
-With a window they run as modal operators: Blender's data is read in the main thread, the library renders in another one,
-and a timer looks after it. Esc ends the operator at once; the library may take some seconds more to end its call, and
-then writes nothing. In background mode, and from scripts, they run in the main thread.
+With a window they run as modal operators: Blender's data is read in the main thread, the library renders in another
+one, and a timer looks after it. Esc ends the operator at once; the library may take some seconds more to end its call,
+and then writes nothing. In background mode, and from scripts, they run in the main thread.
 """
 import threading
 
@@ -68,7 +68,7 @@ def show_image(file: str) -> None:
 
 
 class _FlareOperator:
-    """What both operators have in common; `frames` of the class says which frames they render."""
+    """Both operators have this in common; `frames` of the class says which frames they render."""
 
     bl_options = {"REGISTER"}
 

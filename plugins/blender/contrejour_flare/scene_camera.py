@@ -8,7 +8,7 @@ from .projection import Camera
 
 
 class SceneError(Exception):
-    """What is wrong with the scene, and what to do."""
+    """The message says what is wrong with the scene, and what to do."""
 
 
 def camera_object(scene):
@@ -24,13 +24,13 @@ def camera_object(scene):
 
 
 def settled(evaluated, depsgraph):
-    """The object whose properties of this add-on hold: scripts change them without Blender's evaluating the object anew,
-    so that the original one has them; but while a frame is rendered, its own copy alone has animated values."""
+    """The object whose properties of this add-on hold: scripts change them without Blender's evaluating the object
+    anew, so that the original one has them; but while a frame is rendered, its own copy alone has animated values."""
     return evaluated if depsgraph.mode == "RENDER" else evaluated.original
 
 
 def camera_of(scene, camera) -> Camera:
-    """Of an evaluated camera object."""
+    """The numbers of an evaluated camera object."""
     data, render = camera.data, scene.render
     border = None
     if render.use_border and render.use_crop_to_border:

@@ -81,10 +81,12 @@ def _ball(name: str, lamp, matrix, colour: np.ndarray, samples: int) -> Source:
     intensity = colour * photometry.point_intensity(1.0)
     if lamp.type == "SPOT":
         axis = np.array((matrix.to_3x3() @ Vector((0.0, 0.0, -1.0))).normalized())
-        intensity = intensity * photometry.spot_factor(float(axis @ -middle) / distance, lamp.spot_size, lamp.spot_blend)
+        cosine = float(axis @ -middle) / distance
+        intensity = intensity * photometry.spot_factor(cosine, lamp.spot_size, lamp.spot_blend)
     radius = min(lamp.shadow_soft_size, 0.5 * distance)
     points = middle + radius * disc_points(samples) @ _frame_across(middle / distance)
-    return Source(name, points, np.broadcast_to(intensity / samples, (samples, 3)), radius_rad=math.asin(radius / distance))
+    parts = np.broadcast_to(intensity / samples, (samples, 3))
+    return Source(name, points, parts, radius_rad=math.asin(radius / distance))
 
 
 def _area(name: str, lamp, matrix, colour: np.ndarray, samples: int) -> Optional[Source]:
@@ -126,6 +128,7 @@ def _sky_sun(world, to_camera, samples: int) -> Optional[Source]:
     if irradiance.max() <= 0.0:
         return None
     level = math.cos(node.sun_elevation)
-    towards = Vector((math.sin(node.sun_rotation) * level, math.cos(node.sun_rotation) * level, math.sin(node.sun_elevation)))
+    turn, height = node.sun_rotation, math.sin(node.sun_elevation)
+    towards = Vector((math.sin(turn) * level, math.cos(turn) * level, height))
     towards = np.array((to_camera.to_3x3() @ towards).normalized())
     return _sun(f"{world.name}, sun", towards, irradiance, 0.5 * node.sun_size, samples)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What materials emit and transmit, read from their nodes where these are constant.
+"""Emission and transmittance of materials, read from their nodes where these are constant.
 
 Colours by nodes that are followed: RGB, value, black body, light path, image textures (their mean). Any other node
 counts as the socket's own default, or a factor as one half.
@@ -89,7 +89,8 @@ def _transmittance_of_shader(node) -> np.ndarray:
         return np.clip(constant(node.inputs["Color"]), 0.0, 1.0)
     if node.type == "BSDF_PRINCIPLED":
         alpha = float(constant(node.inputs["Alpha"], 1.0)[0])
-        through = constant(_input(node, "Transmission", "Transmission Weight"), 0.0) * constant(node.inputs["Base Color"])
+        through = constant(_input(node, "Transmission", "Transmission Weight"), 0.0)
+        through = through * constant(node.inputs["Base Color"])
         return np.clip(1.0 - alpha + alpha * through, 0.0, 1.0)
     return BLACK
 
@@ -109,14 +110,14 @@ def emission(material) -> np.ndarray:
 
 
 def transmittance(material) -> np.ndarray:
-    """Of light that goes straight through; glass counts as if it did not bend it."""
+    """The part of light that goes straight through; glass counts as if it did not bend it."""
     if material is None or not material.use_nodes:
         return BLACK
     return _mixed(surface_of(material.node_tree), _transmittance_of_shader)
 
 
 def lamp_factor(lamp) -> np.ndarray:
-    """What a lamp's own nodes multiply its colour by."""
+    """A lamp's own nodes multiply its colour by this."""
     if not lamp.use_nodes or lamp.node_tree is None:
         return WHITE
     surface = surface_of(lamp.node_tree)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sun of Blender's Nishita sky: its irradiance after the air.
 
-Nishita 1993's atmosphere as Cycles has it: air and dust whose densities fall with e^(-height / scale height), scattering
-by lambda^-4 and alike at all wavelengths. What leaves the ray towards the sun is the optical depth along it. The
+Nishita 1993's atmosphere as Cycles has it: air and dust whose densities fall with e^(-height / scale height), which
+scatter by lambda^-4 and alike at all wavelengths. The sun is dimmed by the optical depth along the ray towards it. The
 irradiance above the air is what Cycles 3.4 renders with both densities at 0. Ozone does not dim its sun.
 """
 from __future__ import annotations

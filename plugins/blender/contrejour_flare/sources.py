@@ -70,7 +70,7 @@ class FlareLight:
 
 @dataclass(eq=False)
 class Image:
-    """What the picture receives from a source's points."""
+    """The picture receives this from a source's points."""
 
     tangents: np.ndarray  # (n, 2)
     values: np.ndarray  # (n, 3): the sum over the pixels of each point's image
@@ -118,7 +118,7 @@ def lights_of(source: Source, view: View, visible: np.ndarray) -> list[FlareLigh
                 v=float(v),
                 value=tuple(float(channel) for channel in values[part].sum(axis=0)),
                 size_deg=_size_deg(source, image, part, weight),
-                distance=float(np.average(image.distances[part], weights=weight)) if not source.is_distant else math.inf,
+                distance=math.inf if source.is_distant else float(np.average(image.distances[part], weights=weight)),
                 visible=float(weights.sum() / everything),
                 spectrum=source.spectrum,
             )
@@ -181,6 +181,6 @@ def _long_side(tangents: np.ndarray, weights: np.ndarray) -> tuple[float, np.nda
 
 
 def brightest(lights: list[FlareLight], count: int, least: float = 1e-6) -> list[FlareLight]:
-    """The brightest lights; what has less than `least` of the brightest one's luminance cannot be seen beside it."""
+    """The brightest lights; one with less than `least` of the brightest one's luminance is lost beside it."""
     ordered = sorted(lights, key=lambda light: -light.luminance)[:count]
     return [light for light in ordered if light.luminance > least * ordered[0].luminance]
