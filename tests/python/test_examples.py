@@ -41,6 +41,18 @@ class ExamplesTest(unittest.TestCase):
         self.assertEqual(len(lines), 3)
         self.assertAlmostEqual(float(lines[1].split()[0]), contrejour.find_lens("nikon-80-200").zoom_mm[0], delta=0.1)
 
+    def test_coating_search(self):
+        lines = self.run_example("coating_search.py", "cooke-triplet", "25").splitlines()
+        fluxes = [float(line.split()[0]) for line in lines]
+        self.assertEqual(len(fluxes), 4)
+        self.assertLess(fluxes[3], fluxes[2])
+        self.assertEqual(lines, self.run_example("coating_search.py", "cooke-triplet", "25").splitlines())
+
+    def test_build_errors(self):
+        lines = self.run_example("build_errors.py", "cooke-triplet", "4").splitlines()
+        self.assertEqual(len(lines), 7)
+        self.assertTrue(all(float(line.split()[-1]) > 0.01 for line in lines[1:]))
+
     def test_data_set(self):
         for folder, processes in (("one", 1), ("two", 2)):
             self.run_example("data_set.py", folder, 2, 7, 48, processes)
