@@ -59,6 +59,7 @@ RENDERERS = "src/render"
 PUBLIC = {
     "contrejour.h": "api",
     "../contrejour.h": "c_interface",
+    "../contrejour_optics.h": "c_interface",
     "export.h": "base",
     "expert/check_lens.h": "lens",
     "expert/coating.h": "coating",
@@ -128,6 +129,8 @@ PUBLIC = {
     "expert/starburst_options.h": "render/planning",
     "expert/clear_aperture.h": "surface",
     "expert/coating_file.h": "coating",
+    "expert/coated_glass.h": "coating",
+    "expert/glass_text.h": "settings",
     "expert/ghost_id.h": "lens",
     "expert/seidel.h": "lens",
     "expert/svg.h": "drawing",
@@ -144,6 +147,7 @@ PUBLIC = {
     "expert/settings.h": "settings",
     "expert/preview_exposure.h": "settings",
     "expert/requests.h": "requests",
+    "expert/source_renderer.h": "requests",
     "apply.h": "compositing",
     "expert/apply_files.h": "compositing",
     "expert/detected_picture.h": "compositing",
@@ -198,7 +202,7 @@ MAY_INCLUDE = {
     "gpu": ["render/planning", "render/polygons", "image"],
     "requests": ["compositing", "render/session"],
     "api": ["compositing", "render/session"],
-    "c_interface": ["api", "requests"],
+    "c_interface": ["api", "requests", "drawing", "lens_files"],
     "apps": ["public"],
 }
 
