@@ -144,7 +144,8 @@ typedef struct cj_lens cj_lens;
 CONTREJOUR_API size_t cj_bundled_lens_count(void);
 CONTREJOUR_API const char* cj_bundled_lens_name(size_t index);  // NULL beyond the last
 
-// A bundled lens, or else a file in any of the formats that the library reads.
+// A bundled lens, or else a file in any of the formats that the library reads; also a measured flare (NAME.flare.toml),
+// which can be configured, rendered and applied as a lens, by the settings that `contrejour render` takes for one.
 CONTREJOUR_API cj_status cj_lens_find(const char* name_or_file, cj_lens** lens, cj_error* error);
 // The library's own format (docs/formats/lens-toml.md) from memory; `file` names it in errors.
 CONTREJOUR_API cj_status cj_lens_read_toml(const char* text, const char* file, cj_lens** lens, cj_error* error);
@@ -158,6 +159,7 @@ typedef struct cj_lens_info {
   double shortest_focal_length_mm, longest_focal_length_mm;  // of a zoom, nominal; 0 for a prime
   double sensor_width_mm, sensor_height_mm;
   size_t surface_count, warning_count;
+  int32_t is_measured_flare;  // 1: a flare measured from photographs, which has no surfaces
 } cj_lens_info;
 CONTREJOUR_API cj_status cj_lens_get_info(const cj_lens* lens, cj_lens_info* info, cj_error* error);
 // A warning of the reader, of what it interpreted differently from the file; NULL beyond the last.

@@ -9,7 +9,6 @@
 #include "cli/flare_report.h"
 #include "cli/options.h"
 #include "contrejour/expert/apply_files.h"
-#include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
 
@@ -42,23 +41,12 @@ Result<void> write_result(const PlannedPhotograph& planned, const Context& conte
                              : contrejour::write_photograph(*files.output, picture, options.values, context);
 }
 
-Result<PictureFlare> flare_of(PlannedPhotograph& planned, SourceRenderer& renderer, const Context& context) {
-  FlarePlan& plan = planned.plan;
-  if (auto* of_lens = std::get_if<Renderer>(&renderer))
-    return render_flare(plan, planned.picture.rgb, planned.options.values, *of_lens, context);
-  const auto& measured = std::get<MeasuredFlare>(renderer);
-  for (std::string& warning : range_warnings(measured, plan.lights)) plan.warnings.push_back(std::move(warning));
-  return render_flare(plan, planned.picture.rgb, measured, context);
-}
-
 Result<FlaredPhotograph> render_in_layers(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                           const Context& context) {
-  const auto of_lens = renderer_of_layers(renderer);
-  if (!of_lens) return tl::unexpected(of_lens.error());
-  const FlarePlan& plan = planned.plan;
+  FlarePlan& plan = planned.plan;
   const auto options = layer_options(planned.options.layers, plan.lights.size() - plan.given_light_count);
   if (!options) return tl::unexpected(options.error());
-  auto layered = render_flare_layers(plan, planned.picture.rgb, planned.options.values, **of_lens, *options, context);
+  auto layered = render_flare_layers(plan, planned.picture.rgb, planned.options.values, renderer, *options, context);
   if (!layered) return tl::unexpected(layered.error());
   return FlaredPhotograph{std::move(planned), std::move(layered->flare), std::move(layered->layers)};
 }
@@ -96,7 +84,7 @@ Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shar
 Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                            const Context& context) {
   if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
-  auto flare = flare_of(planned, renderer, context);
+  auto flare = render_flare(planned.plan, planned.picture.rgb, planned.options.values, renderer, context);
   if (!flare) return tl::unexpected(flare.error());
   return FlaredPhotograph{std::move(planned), std::move(*flare)};
 }

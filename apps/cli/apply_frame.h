@@ -11,10 +11,10 @@
 #include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
-#include "cli/source_renderer.h"
 #include "contrejour/apply.h"
 #include "contrejour/context.h"
 #include "contrejour/expert/plate.h"
+#include "contrejour/expert/source_renderer.h"
 
 namespace contrejour::cli {
 

@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 
 #include "cli/line_chart.h"
-#include "cli/markup.h"
 #include "cli/printable.h"
 #include "contrejour/expert/metrics.h"
 #include "contrejour/expert/settings.h"
+#include "contrejour/expert/svg.h"
 #include "contrejour/image_io.h"
 
 namespace contrejour::cli {

@@ -8,7 +8,7 @@
 
 #include "cli/animation_option.h"
 #include "cli/source_choice.h"
-#include "cli/source_renderer.h"
+#include "contrejour/expert/source_renderer.h"
 #include "contrejour/lens.h"
 
 namespace contrejour::cli {

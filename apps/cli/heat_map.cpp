@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
-
-#include "cli/svg.h"
+#include "contrejour/expert/svg.h"
 
 namespace contrejour::cli {
 namespace {

@@ -81,6 +81,11 @@ bool chooses_ghosts(const LayerChoice& layers) { return layers.by == "ghost" && 
 
 Result<void> choose_ghosts(LayerChoice& layers, const LensState& lens, std::vector<Light> lights,
                            const params::Values& values, const FrameSettings& settings) {
+  if (lens.surfaces.empty())
+    return failure(
+        ErrorCode::InvalidArgument,
+        "the layers of a measured flare by ghost are the brightest of each frame, and those of a sequence are "
+        "the same in all; give --layers light or --layers part");
   const auto options = layer_options(layers);
   if (!options) return tl::unexpected(options.error());
   if (lights.empty()) {
@@ -104,11 +109,6 @@ std::string layers_text(const LayerChoice& layers) {
   for (const std::string& name : layers.light_names) text += fmt::format("light name = {}\n", name);
   for (const std::string& name : layers.off_names) text += fmt::format("light off = {}\n", name);
   return text;
-}
-
-Result<Renderer*> renderer_of_layers(SourceRenderer& renderer) {
-  if (auto* const of_lens = std::get_if<Renderer>(&renderer)) return of_lens;
-  return failure(ErrorCode::InvalidArgument, "a measured flare has no layers; leave --layers out, or give a lens");
 }
 
 void add_layers(Picture& picture, std::vector<FlareLayer> layers, const LayerChoice& choice) {

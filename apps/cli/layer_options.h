@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/source_renderer.h"
 #include "contrejour/expert/flare_layers.h"
 #include "contrejour/image_io.h"
 
@@ -43,9 +42,6 @@ void add_layer_options(CLI::App& command, LayerChoice& layers);
 
 // The choice as text, for a frame's record.
 [[nodiscard]] std::string layers_text(const LayerChoice& layers);
-
-// The renderer of a lens. Errors: a measured flare, which has no layers.
-[[nodiscard]] Result<Renderer*> renderer_of_layers(SourceRenderer& renderer);
 
 // Adds the layers to the file's picture, and dark ones for the lights that are off.
 void add_layers(Picture& picture, std::vector<FlareLayer> layers, const LayerChoice& choice);

@@ -16,8 +16,8 @@
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "cli/section_svg.h"
 #include "contrejour/expert/ghost.h"
+#include "contrejour/expert/lens_section.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/image_io.h"
@@ -113,7 +113,7 @@ Result<LensCard> card_of(const std::string& id, const params::Values& values, co
                   enumerate_ghosts(*state, settings.scope).size(),
                   relative_flare(flare->image, lights->front(), space),
                   preview.exposure_stops,
-                  draw_section(make_section(*state, section)),
+                  section_svg(lens_section(*state, section)),
                   std::move(*picture)};
 }
 

@@ -10,7 +10,7 @@
 #include "cli/lens_choice.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
-#include "cli/section_svg.h"
+#include "contrejour/expert/lens_section.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/light.h"
 
@@ -57,7 +57,7 @@ Result<int> run_draw(const DrawOptions& options) {
   const auto angle_rad = light_angle_rad(options.values, *lens);
   if (!angle_rad) return tl::unexpected(angle_rad.error());
   request.ghost_light_rad = *angle_rad;
-  const std::string drawing = draw_section(make_section(*lens, request));
+  const std::string drawing = section_svg(lens_section(*lens, request));
   if (const auto ok = (*file)->write(drawing); !ok) return tl::unexpected(ok.error());
   if (const auto ok = outputs.commit(); !ok) return tl::unexpected(ok.error());
   return kDone;

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "cli/lens_info_report.h"
-#include "cli/section.h"
 #include "cli/text_table.h"
+#include "contrejour/expert/lens_section.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {

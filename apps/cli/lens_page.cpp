@@ -6,8 +6,7 @@
 #include <span>
 
 #include <fmt/format.h>
-
-#include "cli/markup.h"
+#include "contrejour/expert/svg.h"
 
 namespace contrejour::cli {
 namespace {

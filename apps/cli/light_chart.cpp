@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/svg.h"
 #include "contrejour/expert/settings.h"
+#include "contrejour/expert/svg.h"
 
 namespace contrejour::cli {
 namespace {

@@ -7,8 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
-
-#include "cli/svg.h"
+#include "contrejour/expert/svg.h"
 
 namespace contrejour::cli {
 namespace {

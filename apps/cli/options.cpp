@@ -67,6 +67,14 @@ void add_parameter(CLI::App& command, params::Values& values, const Parameter& p
   option->group("");
 }
 
+// Adds the parameters of a group of the table that the command does not have yet, but for one.
+void add_others_of_group(CLI::App& command, params::Values& values, std::string_view group,
+                         std::string_view except = {}) {
+  for (const Parameter& p : params::all_parameters())
+    if (p.group == group && p.name != except && command.get_option_no_throw(fmt::format("--{}", p.name)) == nullptr)
+      add_parameter(command, values, p);
+}
+
 }  // namespace
 
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names) {
@@ -84,6 +92,7 @@ void add_lens_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"sensor", "cover-glass", "sensor-reflectance"});
   add_parameters(command, values, kGrating);
   add_parameters(command, values, kDirt);
+  add_others_of_group(command, values, "Lens", "wavelength");
 }
 
 void hide_parameters(CLI::App& command, std::span<const std::string_view> names) {
@@ -103,6 +112,7 @@ void add_rendering_parameters(CLI::App& command, params::Values& values) {
   add_parameters(command, values, {"ringing", "ringing-alpha"});
   add_parameters(command, values,
                  {"ghost", "ghost-gain", "ghost-edge-gain", "ghost-ramp", "ghost-jitter", "ghost-seed"});
+  add_others_of_group(command, values, "Rendering");
 }
 
 void add_picture_choice(CLI::App& command, ReadOptions& read) {

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "cli/reflected_colour.h"
-#include "cli/svg.h"
 #include "contrejour/expert/colour.h"
+#include "contrejour/expert/svg.h"
 
 namespace contrejour::cli {
 namespace {

@@ -39,7 +39,7 @@ Result<int> render_still(const RenderOptions& options) {
   if (!source) return tl::unexpected(source.error());
   auto planned = plan_frame(options, *source, std::make_shared<const LensState>(geometry_of(*source)));
   if (!planned) return tl::unexpected(planned.error());
-  print_warnings(planned->warnings);
+  print_warnings(planned->request.warnings);
   auto renderer = renderer_of(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
   auto rendered = [&] {

@@ -7,7 +7,6 @@
 
 #include "cli/flare_report.h"
 #include "cli/options.h"
-#include "cli/source_choice.h"
 #include "contrejour/expert/picture_layers.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
@@ -26,11 +25,11 @@ Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& out
   return files;
 }
 
-Result<std::vector<Light>> lights_of(const RenderOptions& options, const FlareSource& source, const LensState& lens,
-                                     const Frame& frame, ColourSpace space) {
-  auto lights = options.needs_light ? params::lights(options.values, lens, frame, space)
-                                    : params::given_lights(options.values, lens, frame, space);
-  return exposed_lights(source, std::move(lights), options.values);
+Result<PictureRequest> request_of(const RenderOptions& options, const FlareSource& source, const LensState& lens) {
+  const auto without = options.needs_light ? WithoutLights::DefaultLight : WithoutLights::Dark;
+  if (const auto* measured = std::get_if<MeasuredFlare>(&source))
+    return picture_request(options.values, *measured, {}, without);
+  return picture_request(options.values, lens, {}, without);
 }
 
 Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& preview, const Context& context) {
@@ -38,58 +37,39 @@ Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& p
   if (lower_extension(planned.options.output) == ".png")
     return write_preview_png(*planned.files.output, flare.image, preview, context);
   Picture picture = picture_of(flare.image);
-  set_colour_space(picture, planned.settings.colour_space);
-  set_pixel_aspect(picture, planned.pixel_aspect);
+  set_colour_space(picture, planned.request.settings.colour_space);
+  set_pixel_aspect(picture, planned.request.pixel_aspect);
   if (planned.options.layers.on()) add_layers(picture, layers, planned.options.layers);
   return write_picture(*planned.files.output, picture, context);
 }
 
 Result<RenderedFrame> render_in_layers(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
-  const auto of_lens = renderer_of_layers(renderer);
-  if (!of_lens) return tl::unexpected(of_lens.error());
   const auto options = layer_options(planned.options.layers);
   if (!options) return tl::unexpected(options.error());
-  auto flare = (*of_lens)->render_layers(planned.lights, planned.settings, *options, context);
+  auto flare = render_picture_layers(planned.request, renderer, *options, context);
   if (!flare) return tl::unexpected(flare.error());
-  auto image = picture_of_flare(std::move(flare->image), planned.grid);
-  if (!image) return tl::unexpected(image.error());
-  auto layers = layers_of_picture(std::move(flare->layers), planned.grid);
-  if (!layers) return tl::unexpected(layers.error());
-  Flare whole{std::move(*image), std::move(flare->statistics)};
-  return RenderedFrame{std::move(planned), std::move(whole), std::move(*layers)};
+  Flare whole{std::move(flare->image), std::move(flare->statistics)};
+  return RenderedFrame{std::move(planned), std::move(whole), std::move(flare->layers)};
 }
 
 }  // namespace
 
 Result<PlannedFrame> plan_frame(const RenderOptions& options, const FlareSource& source,
                                 std::shared_ptr<const LensState> lens) {
-  const params::Values& values = options.values;
-  PlannedFrame planned{options, std::move(lens), {}, {}, {}, 1.0, {}, {}, {}};
+  PlannedFrame planned{options, std::move(lens), {}, {}, {}};
   const auto files = open_render_files(options, planned.outputs);
   if (!files) return tl::unexpected(files.error());
   planned.files = *files;
-  const params::PixelSize size = *params::parse_size(*values.text("size"));
-  const PixelWindow window{0, 0, size.width, size.height};
-  planned.pixel_aspect = values.real("pixel-aspect").value_or(squeeze_of(*planned.lens));
-  auto grid = pixel_grid(values, *planned.lens, window, window, planned.pixel_aspect);
-  if (!grid) return tl::unexpected(grid.error());
-  planned.grid = *grid;
-  const ColourSpace space = params::colour_space(values, ColourSpace::Rec709);
-  auto lights = lights_of(options, source, *planned.lens, planned.grid.frame, space);
-  if (!lights) return tl::unexpected(lights.error());
-  planned.lights = std::move(*lights);
-  planned.settings = params::frame_settings(values, planned.grid.frame, space);
-  planned.warnings = range_warnings_of(source, planned.lights);
+  auto request = request_of(options, source, *planned.lens);
+  if (!request) return tl::unexpected(request.error());
+  planned.request = std::move(*request);
   return planned;
 }
 
 Result<RenderedFrame> render_frame(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
   if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
-  auto flare = render(renderer, planned.lights, planned.settings, context);
+  auto flare = render_picture(planned.request, renderer, context);
   if (!flare) return tl::unexpected(flare.error());
-  auto image = picture_of_flare(std::move(flare->image), planned.grid);
-  if (!image) return tl::unexpected(image.error());
-  flare->image = std::move(*image);
   return RenderedFrame{std::move(planned), std::move(*flare)};
 }
 
@@ -109,7 +89,7 @@ Json frame_json(const RenderedFrame& rendered) {
   const auto& [planned, flare, layers] = rendered;
   return {{"lens", planned.lens->name},
           {"output", planned.options.output},
-          {"lights", planned.lights.size()},
+          {"lights", planned.request.lights.size()},
           {"statistics", stats_json(flare.statistics)}};
 }
 

@@ -11,10 +11,10 @@
 #include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
-#include "cli/source_renderer.h"
 #include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/parameter_values.h"
-#include "contrejour/expert/pixel_grid.h"
+#include "contrejour/expert/requests.h"
+#include "contrejour/expert/source_renderer.h"
 
 namespace contrejour::cli {
 
@@ -39,11 +39,7 @@ struct PlannedFrame {
   std::shared_ptr<const LensState> lens;
   Outputs outputs;
   RenderFiles files;
-  PixelGrid grid;
-  double pixel_aspect = 1.0;
-  std::vector<Light> lights;
-  FrameSettings settings;
-  std::vector<std::string> warnings;
+  PictureRequest request;
 };
 
 struct RenderedFrame {

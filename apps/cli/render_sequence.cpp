@@ -49,7 +49,9 @@ Result<RenderOptions> with_same_layers(RenderOptions options, const FrameValues&
   if (!chooses_ghosts(options.layers)) return options;
   const auto first = plan_numbered(options, values, lens, first_frame);
   if (!first) return tl::unexpected(first.error());
-  if (auto ok = choose_ghosts(options.layers, *first->lens, first->lights, first->options.values, first->settings); !ok)
+  if (auto ok = choose_ghosts(options.layers, *first->lens, first->request.lights, first->options.values,
+                              first->request.settings);
+      !ok)
     return tl::unexpected(ok.error());
   return options;
 }
@@ -86,7 +88,7 @@ Result<int> render_sequence(const RenderOptions& given, const FrameValues& value
   };
   const auto write = [&](int frame, RenderedFrame& rendered) -> Result<void> {
     if (auto ok = write_frame(rendered, without_progress(task.context())); !ok) return ok;
-    report.warn(rendered.planned.warnings);
+    report.warn(rendered.planned.request.warnings);
     report.add(frame, rendered);
     return write_frame_record(files_of(rendered.planned.options));
   };

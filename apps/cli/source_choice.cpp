@@ -25,26 +25,12 @@ const std::string& name_of(const FlareSource& source) {
   return std::get<LensState>(source).name;
 }
 
-Result<std::vector<Light>> exposed_lights(const FlareSource& source, Result<std::vector<Light>> lights,
-                                          const params::Values& values) {
-  const auto* flare = std::get_if<MeasuredFlare>(&source);
-  if (!lights || flare == nullptr) return lights;
-  const auto scale = exposure_scale(*flare, values);
-  if (!scale) return tl::unexpected(scale.error());
-  for (Light& light : *lights)
-    for (double& value : light.value) value *= *scale;
-  return lights;
-}
-
-std::vector<std::string> range_warnings_of(const FlareSource& source, const std::vector<Light>& lights) {
-  const auto* flare = std::get_if<MeasuredFlare>(&source);
-  return flare ? range_warnings(*flare, lights) : std::vector<std::string>{};
-}
-
 Result<std::vector<Light>> scaled_lights(const FlareSource& source, Result<std::vector<Light>> lights,
                                          const params::Values& values) {
-  lights = exposed_lights(source, std::move(lights), values);
-  if (lights) print_warnings(range_warnings_of(source, *lights));
+  const auto* flare = std::get_if<MeasuredFlare>(&source);
+  if (!lights || flare == nullptr) return lights;
+  lights = exposed_lights(*flare, std::move(*lights), values);
+  if (lights) print_warnings(range_warnings(*flare, *lights));
   return lights;
 }
 

@@ -17,15 +17,8 @@ namespace contrejour::cli {
 
 [[nodiscard]] const std::string& name_of(const FlareSource& source);
 
-// The same lights; with a measured flare in the exposure that the values state (walch2018 eq. 2). Errors: those of
-// exposure_scale().
-[[nodiscard]] Result<std::vector<Light>> exposed_lights(const FlareSource& source, Result<std::vector<Light>> lights,
-                                                        const params::Values& values);
-
-// The warnings for lights beyond a measured flare's angles; none for a lens.
-[[nodiscard]] std::vector<std::string> range_warnings_of(const FlareSource& source, const std::vector<Light>& lights);
-
-// exposed_lights(), which prints these warnings.
+// The same lights; with a measured flare in the exposure that the values state (walch2018 eq. 2), and warnings for
+// those beyond its angles. Errors: those of exposed_lights().
 [[nodiscard]] Result<std::vector<Light>> scaled_lights(const FlareSource& source, Result<std::vector<Light>> lights,
                                                        const params::Values& values);
 

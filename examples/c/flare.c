@@ -106,8 +106,12 @@ static int flare(const cj_lens* lens, const cj_settings* settings, const char* o
   cj_lens_state* state = NULL;
   int width = 0, height = 0;
   if (cj_lens_configure(lens, settings, &state, &error) != CJ_OK) return fail(&error);
-  cj_status status = print_lens(lens, state, &error);
-  if (status == CJ_OK) status = print_ghosts(state, settings, &error);
+  cj_lens_info info = CJ_INIT(cj_lens_info);
+  cj_status status = cj_lens_get_info(lens, &info, &error);
+  if (status == CJ_OK && !info.is_measured_flare) {  // a flare measured from photographs has no surfaces
+    status = print_lens(lens, state, &error);
+    if (status == CJ_OK) status = print_ghosts(state, settings, &error);
+  }
   if (status == CJ_OK) status = picture_size(settings, &width, &height, &error);
   int result = EXIT_SUCCESS;
   if (status == CJ_OK) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/expert/detected_picture.h"
-#include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/settings.h"
 #include "openfx/parameter_list.h"
 
@@ -133,11 +133,22 @@ Result<FlareEngine::FrameValues> FlareEngine::values_of(const FlareRequest& requ
   return values;
 }
 
+Result<void> FlareEngine::set_source(const FlareRequest& request, const FrameValues& values) {
+  measured_ = nullptr;
+  if (!is_measured_flare(values.lens)) return set_lens(values);
+  const auto flare =
+      keep(flare_, values.lens, [](const std::string& file) { return read_flare(std::filesystem::path(file)); });
+  if (!flare) return tl::unexpected(flare.error());
+  const auto use = request.source.pixels.empty() ? MeasuredUse::Lights : MeasuredUse::Photograph;
+  if (auto good = check_measured_values(**flare, values.all, use); !good) return good;
+  measured_ = *flare;
+  lens_ = ideal_lens_of(**flare);
+  lens_key_.clear();
+  return {};
+}
+
 // The lens is configured anew where any value changed, which takes little; the renderer keeps what still holds.
 Result<void> FlareEngine::set_lens(const FrameValues& values) {
-  if (is_measured_flare(values.lens))
-    return failure(ErrorCode::Unsupported, "a measured flare is not a lens; choose a lens or a lens file",
-                   {values.lens});
   const auto lens = keep(prescription_, values.lens, [](const std::string& name) { return find_lens(name); });
   if (!lens) return tl::unexpected(lens.error());
   const auto written = prescription_.written.time_since_epoch().count();
@@ -161,6 +172,13 @@ Result<void> FlareEngine::set_method(const Values& values, bool is_draft) {
   return renderer_->set_method(is_draft ? MethodOptions(AdaptiveOptions{kDraftError}) : params::method_options(values));
 }
 
+Result<std::vector<Light>> FlareEngine::given_lights(const FlareRequest& request, const FrameValues& values,
+                                                     const FlarePlan& plan) const {
+  auto lights = given_lights_of(request, values.with_lights, lens_, plan.grid.frame, plan.space);
+  if (!lights || measured_ == nullptr) return lights;
+  return exposed_lights(*measured_, std::move(*lights), values.all);
+}
+
 Result<FlarePlan> FlareEngine::plan(FlareRequest& request, const FrameValues& values, Picture& picture) const {
   FlarePlan plan;
   if (!request.source.pixels.empty()) {
@@ -176,10 +194,27 @@ Result<FlarePlan> FlareEngine::plan(FlareRequest& request, const FrameValues& va
     if (!grid) return tl::unexpected(grid.error());
     plan.grid = *grid;
   }
-  const auto lights = given_lights_of(request, values.with_lights, lens_, plan.grid.frame, plan.space);
+  const auto lights = given_lights(request, values, plan);
   if (!lights) return tl::unexpected(lights.error());
   add_given_lights(plan, *lights);
   return plan;
+}
+
+Result<Flare> FlareEngine::render_plan(const FlareRequest& request, const FrameValues& values, const FlarePlan& plan,
+                                       const Context& context) {
+  Context own = context;
+  own.threads = values.all.integer("threads");
+  if (own.threads == 0) own.threads = request.threads;
+  if (measured_ != nullptr) {
+    std::vector<Light> points = plan.lights;  // a measured flare takes no shapes of detected lights
+    for (Light& light : points) light.shape = nullptr;
+    return contrejour::render(*measured_, points, plan.grid.frame, own);
+  }
+  FrameSettings settings = params::frame_settings(values.all, plan.grid.frame, plan.space);
+  if (request.is_draft) settings.area_error = kDraftError;
+  settings.starburst.left_out = plan.light_matte;
+  settings.starburst.lights = plan.imaged_lights;
+  return renderer_->render(plan.lights, settings, own);
 }
 
 Result<std::shared_ptr<const Image>> FlareEngine::draw(FlareRequest& request, const FrameValues& values,
@@ -192,14 +227,7 @@ Result<std::shared_ptr<const Image>> FlareEngine::draw(FlareRequest& request, co
                                       : std::make_shared<const Image>(pixels_of_lights(picture.rgb, planned->found));
   if (planned->lights.empty()) return nullptr;
   picture = {};
-  FrameSettings settings = params::frame_settings(values.all, planned->grid.frame, planned->space);
-  if (request.is_draft) settings.area_error = kDraftError;
-  settings.starburst.left_out = planned->light_matte;
-  settings.starburst.lights = planned->imaged_lights;
-  Context own = context;
-  own.threads = values.all.integer("threads");
-  if (own.threads == 0) own.threads = request.threads;
-  auto flare = renderer_->render(planned->lights, settings, own);
+  auto flare = render_plan(request, values, *planned, context);
   if (!flare) return tl::unexpected(flare.error());
   auto image = picture_of_flare(std::move(flare->image), planned->grid);
   if (!image) return tl::unexpected(image.error());
@@ -209,8 +237,9 @@ Result<std::shared_ptr<const Image>> FlareEngine::draw(FlareRequest& request, co
 Result<std::shared_ptr<const Image>> FlareEngine::render(FlareRequest request, const Context& context) {
   const auto values = values_of(request);
   if (!values) return tl::unexpected(values.error());
-  if (const auto set = set_lens(*values); !set) return tl::unexpected(set.error());
-  if (const auto set = set_method(values->all, request.is_draft); !set) return tl::unexpected(set.error());
+  if (const auto set = set_source(request, *values); !set) return tl::unexpected(set.error());
+  if (measured_ == nullptr)
+    if (const auto set = set_method(values->all, request.is_draft); !set) return tl::unexpected(set.error());
   std::string key;
   if (request.is_part_of_frame) {
     key = frame_key_of(request, values->with_lights, values->lens);

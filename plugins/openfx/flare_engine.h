@@ -13,6 +13,7 @@
 
 #include "contrejour/apply.h"
 #include "contrejour/expert/animation.h"
+#include "contrejour/expert/flare_source.h"
 #include "contrejour/preset.h"
 #include "contrejour/renderer.h"
 
@@ -57,17 +58,25 @@ class FlareEngine {
     std::string lens;
   };
   [[nodiscard]] Result<FrameValues> values_of(const FlareRequest& request);
+  // The lens, or the measured flare, whose ideal lens is then lens_.
+  [[nodiscard]] Result<void> set_source(const FlareRequest& request, const FrameValues& values);
   [[nodiscard]] Result<void> set_lens(const FrameValues& values);
   [[nodiscard]] Result<void> set_method(const params::Values& values, bool is_draft);
   [[nodiscard]] Result<FlarePlan> plan(FlareRequest& request, const FrameValues& values, Picture& picture) const;
+  [[nodiscard]] Result<std::vector<Light>> given_lights(const FlareRequest& request, const FrameValues& values,
+                                                        const FlarePlan& plan) const;
+  [[nodiscard]] Result<Flare> render_plan(const FlareRequest& request, const FrameValues& values, const FlarePlan& plan,
+                                          const Context& context);
   [[nodiscard]] Result<std::shared_ptr<const Image>> draw(FlareRequest& request, const FrameValues& values,
                                                           const Context& context);
 
   Kept<params::Preset> look_;
   Kept<Prescription> prescription_;
+  Kept<MeasuredFlare> flare_;
   Kept<Animation> animation_;
   std::string lens_key_;
   LensState lens_;
+  const MeasuredFlare* measured_ = nullptr;  // of flare_, where that is the frame's source
   std::optional<Renderer> renderer_;
   std::string frame_key_;  // of frame_
   std::shared_ptr<const Image> frame_;

@@ -101,7 +101,8 @@ void add_lens(ListMaker& maker) {
                    "sets every parameter below as the look does, and the look to none"));
   maker.add(choice(own::kLens, "Lens", fmt::format("a bundled lens; without a look that names one: {}", kDefaultLens),
                    std::move(lenses)));
-  maker.add(simple(ParamType::File, own::kLensFile, "Lens file", "a lens file, in place of the menu's lens"));
+  maker.add(simple(ParamType::File, own::kLensFile, "Lens file",
+                   "a lens file, or a measured flare (NAME.flare.toml), in place of the menu's lens"));
 }
 
 void add_lights(ListMaker& maker, EffectContext context) {

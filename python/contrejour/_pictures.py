@@ -72,7 +72,7 @@ def apply(
     lens, progress, preset, parameters: as of render(); also gain, stops, threshold, light, ...
     """
     state = configured(lens, preset, parameters)
-    rgb, flare, lights, warnings, seen = _native.apply(picture, state._native, state._values, progress)
+    rgb, flare, lights, warnings, seen = _native.apply(picture, state._native, state._measured, state._values, progress)
     if out is None:
         out = np.array(picture, dtype=np.float32) if picture.shape[2] > 3 else rgb
     if out is not rgb:

@@ -22,7 +22,7 @@ class TracedRays:
     transmission: np.ndarray  # float64 (n,): product of the reflectances and transmittances along the path
     relative_height: np.ndarray  # float64 (n,): largest distance from the axis over the clear semi-diameter
     blocked_by: np.ndarray  # float64 (n,): how far outside rims and iris; <= 0 gets through
-    stop: np.ndarray  # float64 (n, 3, 2): stop coordinates over the stop's radius at each crossing
+    stop: np.ndarray  # float64 (n, crossings, 2): stop coordinates over the stop's radius at each crossing
 
     @property
     def passed(self) -> np.ndarray:
@@ -46,6 +46,7 @@ def trace(
     lambda_nm: without it, the lens's design wavelength. One thread; other Python threads run meanwhile.
     """
     state = configured(lens, None, parameters)
+    state._require_surfaces()
     wavelength_nm = lambda_nm or state.design_wavelength_nm
     return TracedRays(*_native.trace(state._native, list(ghost), wavelength_nm, origins_mm, directions))
 
@@ -85,5 +86,6 @@ def ghosts(
     value does not matter. lens, light, progress, preset, parameters: as of render()."""
     objects = divided(light, parameters)
     state = configured(lens, preset, parameters)
+    state._require_surfaces()
     found = _native.ghosts(state._native, state._values, objects[0] if objects else None, progress)
     return [GhostFigures(**fields) for fields in found]

@@ -80,6 +80,20 @@ class Flare:
         return png_of(self.image)
 
 
+@dataclass(frozen=True, eq=False)
+class LayeredFlare(Flare):
+    """A flare, and layers that sum to it."""
+
+    layers: dict[str, np.ndarray]  # by name, float32 (height, width, 3)
+
+
+def _set_lens(renderer: _native.Renderer, state: LensState) -> None:
+    if state._measured is not None:
+        renderer.set_flare(state._measured)
+    else:
+        renderer.set_lens(state._native)
+
+
 class Renderer:
     """A renderer that lives from frame to frame: it keeps what frames have in common (reflectances, patterns, memory),
     and its pictures are those of render(), bit for bit. One thread at a time uses it.
@@ -107,14 +121,30 @@ class Renderer:
         if out is not None:
             parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
         state = configured(self.lens, preset, parameters)
-        self._native.set_lens(state._native)
+        _set_lens(self._native, state)
         return Flare(*self._native.render(state._values, objects, out, progress))
+
+    def render_layers(
+        self,
+        lights: AnyLights = None,
+        *,
+        by: str = "part",
+        count: int = 10,
+        min_percent: float = 0.0,
+        progress: Optional[Progress] = None,
+        **parameters: Any,
+    ) -> LayeredFlare:
+        """One frame in layers. See render_layers()."""
+        objects = divided(lights, parameters)
+        state = configured(self.lens, None, parameters)
+        _set_lens(self._native, state)
+        return LayeredFlare(*self._native.render_layers(state._values, objects, by, count, min_percent, progress))
 
     def starburst(self, lights: AnyLights = None, *, progress: Optional[Progress] = None, **parameters: Any) -> Picture:
         """The lights' own images alone. See starburst()."""
         objects = divided(lights, parameters)
         state = configured(self.lens, None, parameters)
-        self._native.set_lens(state._native)
+        _set_lens(self._native, state)
         return self._native.starburst(state._values, objects, progress)
 
 
@@ -146,8 +176,30 @@ def render(
         parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
     state = configured(lens, preset, parameters)
     renderer = _native.Renderer()
-    renderer.set_lens(state._native)
+    _set_lens(renderer, state)
     return Flare(*renderer.render(state._values, objects, out, progress))
+
+
+def render_layers(
+    lens: Optional[AnyLens] = None,
+    lights: AnyLights = None,
+    *,
+    by: str = "part",
+    count: int = 10,
+    min_percent: float = 0.0,
+    progress: Optional[Progress] = None,
+    preset: Optional[str] = None,
+    **parameters: Any,
+) -> LayeredFlare:
+    """The flare in layers that sum to it (docs/layers.md).
+
+    by: "light", "ghost", "part" or "surface".
+    count, min_percent: by ghost, how many have a layer of their own, the brightest, and the percentage of the flux that
+        such a ghost has at least; the others are in the layer "rest".
+    lens, lights, progress, preset, parameters: as of render().
+    """
+    renderer = Renderer(lens, preset=preset)
+    return renderer.render_layers(lights, by=by, count=count, min_percent=min_percent, progress=progress, **parameters)
 
 
 def starburst(

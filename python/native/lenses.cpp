@@ -6,11 +6,12 @@
 #include <utility>
 
 #include "contrejour/expert/first_order.h"
-#include "contrejour/expert/glass_catalogue.h"
+#include "contrejour/expert/glass_text.h"
 #include "contrejour/expert/parameter_text.h"
 #include "contrejour/expert/seidel.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/spectrum_file.h"
+#include "contrejour/expert/write_lens.h"
 #include "native/errors.h"
 #include "native/objects.h"
 
@@ -48,11 +49,25 @@ std::vector<double> zoom_of(const Prescription& lens) {
   return focal_lengths_mm;
 }
 
-// A number is the index of a glass without dispersion.
-Glass glass_of(const std::string& text) {
-  if (text == "air") return air();
-  if (const auto index = params::parse_real(text); index && *index >= 1.0) return {text, ConstantIndex{*index}};
-  return value_of(bundled_glasses().find(text)).glass;
+py::tuple tuple_of_written(Result<WrittenLens> written) {
+  WrittenLens lens = value_of(std::move(written));
+  return py::make_tuple(std::move(lens.text), std::move(lens.losses));
+}
+
+// The text, and what the format cannot hold.
+py::tuple written(const Prescription& lens, const std::string& format) {
+  if (format == "toml") return py::make_tuple(write_lens_toml(lens), std::vector<std::string>());
+  if (format == "zmx") return tuple_of_written(write_lens_zmx(lens));
+  if (format == "seq") return tuple_of_written(write_lens_seq(lens));
+  throw py::value_error("\"" + format + "\" is not a format; give toml, zmx or seq");
+}
+
+py::tuple written_ghost(const LensState& lens, const std::vector<int>& surfaces, const std::string& format) {
+  const auto ghost = ghost_of(surfaces);
+  if (!ghost) throw py::value_error("give the surfaces of a ghost, as (2, 5)");
+  if (format == "zmx") return tuple_of_written(write_ghost_zmx(lens, *ghost));
+  if (format == "seq") return tuple_of_written(write_ghost_seq(lens, *ghost));
+  throw py::value_error("\"" + format + "\" is not a format for a ghost; give zmx or seq");
 }
 
 // A copy in which one surface (from 0) has these values, where they are given.
@@ -65,7 +80,7 @@ Prescription with_surface(const Prescription& lens, std::size_t index, std::opti
   if (radius_mm) surface.curvature_per_mm = std::isinf(*radius_mm) ? 0.0 : 1.0 / *radius_mm;
   if (thickness_mm) surface.thickness_mm = *thickness_mm;
   if (semi_diameter_mm) surface.semi_diameter_mm = *semi_diameter_mm;
-  if (glass) surface.glass_after = glass_of(*glass);
+  if (glass) surface.glass_after = value_of(params::parse_glass(*glass));
   if (coating) surface.coating = value_of(params::parse_coating(*coating));
   value_of(validate(changed));
   return changed;
@@ -118,7 +133,7 @@ void add_prescription(py::module_& module) {
       .def("surfaces", surfaces_of)
       .def("with_surface", with_surface, py::arg("index"), py::arg("radius_mm"), py::arg("thickness_mm"),
            py::arg("semi_diameter_mm"), py::arg("glass"), py::arg("coating"))
-      .def("toml", write_lens_toml);
+      .def("written", written, py::arg("format"));
   module.def("bundled_lenses", lens_names);
   module.def(
       "find_lens", [](const std::string& name_or_file) { return value_of(find_lens(name_or_file)); },
@@ -143,7 +158,8 @@ void add_lens_state(py::module_& module) {
       .def_readonly("design_wavelength_nm", &LensState::design_wavelength_nm)
       .def_readonly("warnings", &LensState::warnings)
       .def("first_order", figures_of, py::arg("lambda_nm"))
-      .def("seidel", seidel_of, py::arg("lambda_nm"), py::arg("half_field_rad"));
+      .def("seidel", seidel_of, py::arg("lambda_nm"), py::arg("half_field_rad"))
+      .def("written_ghost", written_ghost, py::arg("ghost"), py::arg("format"));
   module.def(
       "configure_lens",
       [](const Prescription& lens, const params::Values& values) {

@@ -10,6 +10,8 @@ PYBIND11_MODULE(_native, module) {
   module.attr("version") = CONTREJOUR_VERSION;
   add_settings(module);
   add_lenses(module);
+  add_optics(module);
+  add_measured(module);
   add_rays(module);
   add_rendering(module);
   add_pictures(module);

@@ -36,6 +36,8 @@ using LightFields =
 
 void add_settings(py::module_& module);
 void add_lenses(py::module_& module);
+void add_optics(py::module_& module);
+void add_measured(py::module_& module);
 void add_rays(py::module_& module);
 void add_rendering(py::module_& module);
 void add_pictures(py::module_& module);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photographs: their lights, their flare, files, and differences between pictures.
+#include <memory>
 #include <utility>
 
 #include "contrejour/apply.h"
 #include "contrejour/expert/metrics.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/requests.h"
+#include "contrejour/expert/source_renderer.h"
 #include "contrejour/image_io.h"
 #include "native/arrays.h"
 #include "native/errors.h"
@@ -38,11 +40,14 @@ Picture picture_of_array(const PixelArray& pixels) {
   return picture_of(image);
 }
 
-py::tuple apply(const PixelArray& pixels, const LensState& lens, const params::Values& values,
-                const py::object& progress) {
+// By a measured flare, if there is one, or else by the lens.
+py::tuple apply(const PixelArray& pixels, const LensState& lens, const std::shared_ptr<MeasuredFlare>& measured,
+                const params::Values& values, const py::object& progress) {
   Picture picture = picture_of_array(pixels);
+  const FlareSource source = measured ? FlareSource(*measured) : FlareSource(lens);
   LongCall call(values.integer("threads"), progress);
-  AppliedFlare applied = call.run([&](const Context& context) { return apply_flare(picture, lens, values, context); });
+  AppliedFlare applied =
+      call.run([&](const Context& context) { return apply_flare(picture, source, values, context); });
   const FlareVisibility& seen = applied.flare.visibility;
   return py::make_tuple(array_of(std::move(picture.rgb)), array_of(std::move(applied.flare.image)),
                         lights_of_detection(applied.plan.found), applied.plan.warnings,
@@ -80,7 +85,8 @@ PreviewSettings preview_of(const Image& image, std::optional<double> exposure_st
 }  // namespace
 
 void add_pictures(py::module_& module) {
-  module.def("apply", apply, py::arg("picture"), py::arg("lens"), py::arg("values"), py::arg("progress"));
+  module.def("apply", apply, py::arg("picture"), py::arg("lens"), py::arg("measured"), py::arg("values"),
+             py::arg("progress"));
   module.def("detect_lights", detect, py::arg("picture"), py::arg("values"));
   module.def("compare", compare_pictures, py::arg("a"), py::arg("b"));
   module.def(

@@ -15,9 +15,9 @@ namespace {
 
 // The results of n rays as arrays.
 struct RayArrays {
-  explicit RayArrays(py::ssize_t n)
+  RayArrays(py::ssize_t n, int stop_crossings)
       : status(n), sensor_mm({n, py::ssize_t{2}}), direction({n, py::ssize_t{3}}), transmission(n), relative_height(n),
-        blocked_by(n), stop({n, py::ssize_t{kMaxStopCrossings}, py::ssize_t{2}}) {}
+        blocked_by(n), stop({n, py::ssize_t{stop_crossings}, py::ssize_t{2}}) {}
 
   py::array_t<std::uint8_t> status;
   py::array_t<double> sensor_mm, direction, transmission, relative_height, blocked_by, stop;
@@ -41,14 +41,15 @@ struct RayPointers {
     transmission[k] = ray.transmission;
     relative_height[k] = ray.relative_height;
     blocked_by[k] = blocked;
-    for (std::size_t c = 0; c < kMaxStopCrossings; ++c) {
-      stop[2 * (kMaxStopCrossings * k + c)] = ray.stop[c].x;
-      stop[2 * (kMaxStopCrossings * k + c) + 1] = ray.stop[c].y;
+    for (std::size_t c = 0; c < crossings; ++c) {
+      stop[2 * (crossings * k + c)] = ray.stop[c].x;
+      stop[2 * (crossings * k + c) + 1] = ray.stop[c].y;
     }
   }
 
   std::uint8_t* status;
   double *sensor_mm, *direction, *transmission, *relative_height, *blocked_by, *stop;
+  std::size_t crossings;
 };
 
 OpticalPath path_of(const LensState& lens, const std::vector<int>& surfaces, double lambda_nm) {
@@ -62,19 +63,24 @@ Vec3 vector_at(const double* numbers, std::size_t k) {
   return {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
 }
 
+Vec3 direction_at(const double* numbers, std::size_t k) {
+  const Vec3 given = vector_at(numbers, k);
+  return dot(given, given) == 1.0 ? given : normalized(given);
+}
+
 py::tuple trace_rays(const LensState& lens, const std::vector<int>& surfaces, double lambda_nm,
                      const VectorArray& origins_mm, const VectorArray& directions) {
   const py::ssize_t n = check_vectors(origins_mm, "origins_mm");
   if (check_vectors(directions, "directions") != n)
     throw py::value_error("origins_mm and directions have different lengths");
   const OpticalPath path = path_of(lens, surfaces, lambda_nm);
-  RayArrays arrays(n);
+  RayArrays arrays(n, path.stop_crossings);
   const RayPointers to(arrays);
   const double *const origin = origins_mm.data(), *const direction = directions.data();
   {
     const py::gil_scoped_release unlocked;
     for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-      const TracedRay ray = trace(path, {vector_at(origin, k), normalized(vector_at(direction, k))});
+      const TracedRay ray = trace(path, {vector_at(origin, k), direction_at(direction, k)});
       to.store(k, ray, blocked_by(ray, path, lens.iris));
     }
   }

@@ -5,6 +5,7 @@
 
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
+#include "contrejour/expert/source_renderer.h"
 #include "contrejour/renderer.h"
 #include "native/arrays.h"
 #include "native/errors.h"
@@ -27,15 +28,29 @@ py::dict dict_of(const RenderStatistics& s) {
   return fields;
 }
 
-// A renderer and the lens that it has.
+LayersBy layers_by(const std::string& name) {
+  if (name == "light") return LayersBy::Light;
+  if (name == "ghost") return LayersBy::Ghost;
+  if (name == "part") return LayersBy::Part;
+  if (name == "surface") return LayersBy::Surface;
+  throw py::value_error("\"" + name + "\" is no kind of layers; give light, ghost, part or surface");
+}
+
+// A renderer and the lens, or the measured flare, that it has.
 class LensRenderer {
  public:
   LensRenderer() : renderer_(value_of(Renderer::create())) {}
 
   void set_lens(const std::shared_ptr<LensState>& lens) {
     if (lens == lens_) return;
-    value_of(renderer_.set_lens(*lens));
+    if (!std::holds_alternative<Renderer>(renderer_)) renderer_ = value_of(Renderer::create());
+    value_of(std::get<Renderer>(renderer_).set_lens(*lens));
     lens_ = lens;
+  }
+
+  void set_flare(const std::shared_ptr<MeasuredFlare>& flare) {
+    renderer_ = *flare;
+    lens_ = nullptr;
   }
 
   // Into `out`, or into a new array. Returns the array and the statistics.
@@ -53,6 +68,23 @@ class LensRenderer {
     return py::make_tuple(*out, dict_of(statistics));
   }
 
+  // The picture, its statistics, and a dictionary of layers that sum to it, whole.
+  py::tuple render_layers(const params::Values& values, const std::vector<LightFields>& lights, const std::string& by,
+                          int count, double min_percent, const py::object& progress) {
+    const PictureRequest request = prepare(values, lights);
+    LayerOptions options;
+    options.by = layers_by(by);
+    options.ghost_count = count;
+    options.min_percent = min_percent;
+    LongCall call(values.integer("threads"), progress);
+    LayeredFlare flare =
+        call.run([&](const Context& context) { return render_picture_layers(request, renderer_, options, context); });
+    py::dict layers;
+    for (const FlareLayer& layer : flare.layers)
+      layers[py::str(layer.name)] = array_of(whole_image(layer, flare.image.width, flare.image.height));
+    return py::make_tuple(array_of(std::move(flare.image)), dict_of(flare.statistics), layers);
+  }
+
   // The lights' own images alone.
   py::array starburst(const params::Values& values, const std::vector<LightFields>& lights,
                       const py::object& progress) {
@@ -66,13 +98,15 @@ class LensRenderer {
 
  private:
   PictureRequest prepare(const params::Values& values, const std::vector<LightFields>& lights) {
+    if (const auto* flare = std::get_if<MeasuredFlare>(&renderer_))
+      return value_of(picture_request(values, *flare, lights_of(lights)));
     if (!lens_) throw py::value_error("the renderer has no lens");
     PictureRequest request = value_of(picture_request(values, *lens_, lights_of(lights)));
-    value_of(renderer_.set_method(params::method_options(values)));
+    value_of(std::get<Renderer>(renderer_).set_method(params::method_options(values)));
     return request;
   }
 
-  Renderer renderer_;
+  SourceRenderer renderer_;
   std::shared_ptr<LensState> lens_;
 };
 
@@ -82,6 +116,9 @@ void add_rendering(py::module_& module) {
   py::class_<LensRenderer>(module, "Renderer")
       .def(py::init<>())
       .def("set_lens", &LensRenderer::set_lens, py::arg("lens"))
+      .def("set_flare", &LensRenderer::set_flare, py::arg("flare"))
+      .def("render_layers", &LensRenderer::render_layers, py::arg("values"), py::arg("lights"), py::arg("by"),
+           py::arg("count"), py::arg("min_percent"), py::arg("progress"))
       .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("out"), py::arg("progress"))
       .def("starburst", &LensRenderer::starburst, py::arg("values"), py::arg("lights"), py::arg("progress"));
 }

@@ -46,11 +46,11 @@ bool is_in_place(const ViewsOfApply& views) {
          views.picture.pixel_step == views.result.pixel_step && views.picture.row_step == views.result.row_step;
 }
 
-Result<AppliedFlare> apply_for_caller(const LensState& lens, const params::Values& values, const ViewsOfApply& views,
-                                      cj_apply_output output, const Context& context) {
+Result<AppliedFlare> apply_for_caller(const FlareSource& source, const params::Values& values,
+                                      const ViewsOfApply& views, cj_apply_output output, const Context& context) {
   const Image before = read_pixels(views.picture);
   Picture picture = picture_of(before);
-  auto applied = apply_flare(picture, lens, values, context);
+  auto applied = apply_flare(picture, source, values, context);
   if (!applied) return applied;
   Result<void> written;
   if (output == CJ_FLARE_ONLY)
@@ -83,7 +83,7 @@ cj_status cj_apply(const cj_lens_state* state, const cj_settings* settings, cons
     if (!views) return tl::unexpected(views.error());
     const params::Values values = values_of(settings);
     const CallContext call(context, values);
-    const auto applied = apply_for_caller(state->state, values, *views, output, call.context());
+    const auto applied = apply_for_caller(source_of(*state), values, *views, output, call.context());
     if (!applied) return tl::unexpected(applied.error());
     if (report != nullptr) write_struct(report_of(*applied), report);
     return {};

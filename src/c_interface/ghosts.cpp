@@ -45,7 +45,7 @@ cj_status cj_measure_ghosts(const cj_lens_state* state, const cj_settings* setti
                             const cj_context* context, cj_ghost_list** ghosts, cj_error* error) {
   using namespace contrejour;
   return guarded_create(ghosts, error, [&]() -> Result<cj_ghost_list> {
-    if (const auto given = require(state, "state"); !given) return tl::unexpected(given.error());
+    if (const auto given = require_surfaces(state); !given) return tl::unexpected(given.error());
     if (const auto good = CallContext::check(context); !good) return tl::unexpected(good.error());
     const auto lights = lights_of(light, light != nullptr ? 1 : 0);
     if (!lights) return tl::unexpected(lights.error());

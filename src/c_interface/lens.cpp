@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lenses and configured lenses for C callers.
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,11 +26,22 @@ const std::vector<std::string>& lens_names() {
   return kNames;
 }
 
-Result<cj_lens> with_texts(Result<Prescription> read) {
-  if (!read) return tl::unexpected(std::move(read.error()));
-  cj_lens lens{std::move(*read), {}};
-  for (const Surface& surface : lens.prescription.surfaces) lens.coatings.push_back(describe(surface.coating));
+Result<cj_lens> find_lens_or_flare(const char* name_or_file) {
+  if (!is_measured_flare(name_or_file)) return lens_with_texts(find_lens(name_or_file));
+  auto flare = read_flare(std::filesystem::path(name_or_file));
+  if (!flare) return tl::unexpected(flare.error());
+  cj_lens lens;
+  lens.prescription.name = flare->name;
+  lens.prescription.source = flare->source;
+  lens.measured = std::move(*flare);
   return lens;
+}
+
+Result<cj_lens_state> configured_lens(const cj_lens& lens, const params::Values& values) {
+  if (lens.measured) return cj_lens_state{ideal_lens_of(*lens.measured), lens.measured};
+  auto configured = params::lens_of(lens.prescription, values);
+  if (!configured) return tl::unexpected(configured.error());
+  return cj_lens_state{std::move(*configured)};
 }
 
 cj_surface surface_of(const cj_lens& lens, std::size_t index) {
@@ -68,7 +81,35 @@ cj_lens_figures figures_at(const LensState& lens, double lambda_nm) {
   return ours;
 }
 
+Result<void> no_surfaces(const std::string& name) {
+  return failure(ErrorCode::Unsupported,
+                 fmt::format("\"{}\" is a measured flare, which has no surfaces; it can be rendered and applied, but "
+                             "this needs a lens",
+                             name));
+}
+
 }  // namespace
+
+inline namespace internal {
+
+Result<cj_lens> lens_with_texts(Result<Prescription> read) {
+  if (!read) return tl::unexpected(std::move(read.error()));
+  cj_lens lens{std::move(*read), {}};
+  for (const Surface& surface : lens.prescription.surfaces) lens.coatings.push_back(describe(surface.coating));
+  return lens;
+}
+
+Result<void> require_lens(const cj_lens* lens) {
+  if (const auto given = require(lens, "lens"); !given) return given;
+  return lens->measured ? no_surfaces(lens->prescription.name) : Result<void>();
+}
+
+Result<void> require_surfaces(const cj_lens_state* state) {
+  if (const auto given = require(state, "state"); !given) return given;
+  return state->measured ? no_surfaces(state->state.name) : Result<void>();
+}
+
+}  // namespace internal
 }  // namespace contrejour
 
 using contrejour::Result;
@@ -86,14 +127,14 @@ cj_status cj_lens_find(const char* name_or_file, cj_lens** lens, cj_error* error
   return contrejour::guarded_create(lens, error, [&]() -> Result<cj_lens> {
     if (const auto given = contrejour::require(name_or_file, "name_or_file"); !given)
       return tl::unexpected(given.error());
-    return contrejour::with_texts(contrejour::find_lens(name_or_file));
+    return contrejour::find_lens_or_flare(name_or_file);
   });
 }
 
 cj_status cj_lens_read_toml(const char* text, const char* file, cj_lens** lens, cj_error* error) {
   return contrejour::guarded_create(lens, error, [&]() -> Result<cj_lens> {
     if (const auto given = contrejour::require(text, "text"); !given) return tl::unexpected(given.error());
-    return contrejour::with_texts(contrejour::read_lens_toml(text, file != nullptr ? file : ""));
+    return contrejour::lens_with_texts(contrejour::read_lens_toml(text, file != nullptr ? file : ""));
   });
 }
 
@@ -103,7 +144,8 @@ cj_status cj_lens_get_info(const cj_lens* lens, cj_lens_info* info, cj_error* er
   using namespace contrejour;
   return guarded(error, [&]() -> Result<void> {
     if (const auto given = require(lens, "lens"); !given) return given;
-    if (const auto good = check_struct(info, sizeof(cj_lens_info), "cj_lens_info"); !good) return good;
+    if (const auto good = check_struct(info, offsetof(cj_lens_info, is_measured_flare), "cj_lens_info"); !good)
+      return good;
     const Prescription& prescription = lens->prescription;
     cj_lens_info ours{};
     ours.name = prescription.name.c_str();
@@ -117,6 +159,7 @@ cj_status cj_lens_get_info(const cj_lens* lens, cj_lens_info* info, cj_error* er
     ours.sensor_height_mm = prescription.sensor_height_mm;
     ours.surface_count = prescription.surfaces.size();
     ours.warning_count = prescription.warnings.size();
+    ours.is_measured_flare = lens->measured ? 1 : 0;
     write_struct(ours, info);
     return {};
   });
@@ -144,9 +187,7 @@ cj_status cj_lens_configure(const cj_lens* lens, const cj_settings* settings, cj
   using namespace contrejour;
   return guarded_create(state, error, [&]() -> Result<cj_lens_state> {
     if (const auto given = require(lens, "lens"); !given) return tl::unexpected(given.error());
-    auto configured = params::lens_of(lens->prescription, values_of(settings));
-    if (!configured) return tl::unexpected(configured.error());
-    return cj_lens_state{std::move(*configured)};
+    return configured_lens(*lens, values_of(settings));
   });
 }
 
@@ -156,7 +197,7 @@ cj_status cj_lens_state_get_figures(const cj_lens_state* state, double wavelengt
                                     cj_error* error) {
   using namespace contrejour;
   return guarded(error, [&]() -> Result<void> {
-    if (const auto given = require(state, "state"); !given) return given;
+    if (const auto given = require_surfaces(state); !given) return given;
     if (const auto good = check_struct(figures, sizeof(cj_lens_figures), "cj_lens_figures"); !good) return good;
     if (wavelength_nm != 0.0 && !(wavelength_nm >= 100.0 && wavelength_nm <= 10000.0))
       return invalid_argument(fmt::format("{} nm is not a wavelength of light; give nm, as 550, or 0", wavelength_nm));

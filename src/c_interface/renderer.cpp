@@ -34,18 +34,41 @@ Result<params::Values> values_of_size(const cj_settings* settings, const ImageVi
   return values.over(values_of(settings));
 }
 
+Result<PictureRequest> request_of(const cj_renderer& renderer, const params::Values& values,
+                                  const std::vector<Light>& lights) {
+  if (const auto* measured = std::get_if<MeasuredFlare>(&renderer.renderer))
+    return picture_request(values, *measured, lights);
+  if (!renderer.lens) return invalid_argument("the renderer has no lens; call cj_renderer_set_lens() first");
+  return picture_request(values, *renderer.lens, lights);
+}
+
 Result<RenderStatistics> render_for_caller(cj_renderer& renderer, const cj_settings* settings,
                                            const std::vector<Light>& lights, const ImageView& view,
                                            const cj_context* context) {
-  if (!renderer.lens) return invalid_argument("the renderer has no lens; call cj_renderer_set_lens() first");
   const auto values = values_of_size(settings, view);
   if (!values) return tl::unexpected(values.error());
-  const auto request = picture_request(*values, *renderer.lens, lights);
+  const auto request = request_of(renderer, *values, lights);
   if (!request) return tl::unexpected(request.error());
-  if (auto set = renderer.renderer.set_method(params::method_options(*values)); !set)
-    return tl::unexpected(set.error());
+  if (auto* of_lens = std::get_if<Renderer>(&renderer.renderer))
+    if (auto set = of_lens->set_method(params::method_options(*values)); !set) return tl::unexpected(set.error());
   const CallContext call(context, *values);
   return render_picture(*request, renderer.renderer, view, call.context());
+}
+
+// The renderer keeps what frames have in common from lens to lens.
+Result<void> set_source(cj_renderer& renderer, const cj_lens_state& state) {
+  if (state.measured) {
+    renderer = {*state.measured};
+    return {};
+  }
+  if (!std::holds_alternative<Renderer>(renderer.renderer)) {
+    auto made = Renderer::create();
+    if (!made) return tl::unexpected(made.error());
+    renderer = {std::move(*made)};
+  }
+  if (auto set = std::get<Renderer>(renderer.renderer).set_lens(state.state); !set) return set;
+  renderer.lens = state.state;
+  return {};
 }
 
 }  // namespace
@@ -67,9 +90,7 @@ cj_status cj_renderer_set_lens(cj_renderer* renderer, const cj_lens_state* state
   return contrejour::guarded(error, [&]() -> Result<void> {
     if (const auto given = contrejour::require(renderer, "renderer"); !given) return given;
     if (const auto given = contrejour::require(state, "state"); !given) return given;
-    if (auto set = renderer->renderer.set_lens(state->state); !set) return set;
-    renderer->lens = state->state;
-    return {};
+    return contrejour::set_source(*renderer, *state);
   });
 }
 

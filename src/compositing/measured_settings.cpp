@@ -23,6 +23,13 @@ bool has_exposure_values(const params::Values& values) {
   return values.given("fnumber") || values.given("iso") || values.given("shutter");
 }
 
+// Each light as a point, which is what a measured flare takes.
+std::vector<Light> points_of(const FlarePlan& plan) {
+  std::vector<Light> points = plan.lights;
+  for (Light& light : points) light.shape = nullptr;
+  return points;
+}
+
 }  // namespace
 
 Result<void> check_measured_values(const MeasuredFlare& flare, const params::Values& values, MeasuredUse use) {
@@ -61,14 +68,28 @@ Result<double> exposure_scale(const MeasuredFlare& flare, const params::Values& 
   return brightness_scale(*flare.exposure, picture, 1.0);
 }
 
+Result<std::vector<Light>> exposed_lights(const MeasuredFlare& flare, std::vector<Light> lights,
+                                          const params::Values& values) {
+  const auto scale = exposure_scale(flare, values);
+  if (!scale) return tl::unexpected(scale.error());
+  for (Light& light : lights)
+    for (double& value : light.value) value *= *scale;
+  return lights;
+}
+
 Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const MeasuredFlare& flare,
                                   const Context& context) {
   if (plan.lights.empty()) return flare_without_lights(plan);
-  std::vector<Light> points = plan.lights;
-  for (Light& light : points) light.shape = nullptr;
-  auto drawn = render(flare, points, plan.grid.frame, context);
+  auto drawn = render(flare, points_of(plan), plan.grid.frame, context);
   if (!drawn) return tl::unexpected(drawn.error());
   return on_picture(std::move(*drawn), plan, rgb);
+}
+
+Result<PictureLayers> render_flare_layers(const FlarePlan& plan, const Image& rgb, const MeasuredFlare& flare,
+                                          const LayerOptions& options, const Context& context) {
+  auto drawn = render_layers(flare, points_of(plan), plan.grid.frame, options, context);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return layers_on_picture(std::move(*drawn), plan, rgb);
 }
 
 }  // namespace contrejour

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "contrejour/apply.h"
+#include "contrejour/expert/picture_layers.h"
 
 namespace contrejour::inline internal {
 
@@ -14,5 +15,7 @@ namespace contrejour::inline internal {
 
 // Errors: those of picture_of_flare().
 [[nodiscard]] Result<PictureFlare> on_picture(Flare frame, const FlarePlan& plan, const Image& rgb);
+
+[[nodiscard]] Result<PictureLayers> layers_on_picture(LayeredFlare frame, const FlarePlan& plan, const Image& rgb);
 
 }  // namespace contrejour::inline internal

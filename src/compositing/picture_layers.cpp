@@ -24,16 +24,24 @@ Result<std::vector<FlareLayer>> layers_of_picture(std::vector<FlareLayer> layers
   return layers;
 }
 
+inline namespace internal {
+
+Result<PictureLayers> layers_on_picture(LayeredFlare frame, const FlarePlan& plan, const Image& rgb) {
+  if (plan.lights.empty()) return PictureLayers{flare_without_lights(plan), std::move(frame.layers)};
+  auto flare = on_picture({std::move(frame.image), std::move(frame.statistics)}, plan, rgb);
+  if (!flare) return tl::unexpected(flare.error());
+  auto layers = layers_of_picture(std::move(frame.layers), plan.grid);
+  if (!layers) return tl::unexpected(layers.error());
+  return PictureLayers{std::move(*flare), std::move(*layers)};
+}
+
+}  // namespace internal
+
 Result<PictureLayers> render_flare_layers(const FlarePlan& plan, const Image& rgb, const params::Values& values,
                                           Renderer& renderer, const LayerOptions& options, const Context& context) {
   auto rendered = renderer.render_layers(plan.lights, settings_of(plan, values), options, context);
   if (!rendered) return tl::unexpected(rendered.error());
-  if (plan.lights.empty()) return PictureLayers{flare_without_lights(plan), std::move(rendered->layers)};
-  auto flare = on_picture({std::move(rendered->image), std::move(rendered->statistics)}, plan, rgb);
-  if (!flare) return tl::unexpected(flare.error());
-  auto layers = layers_of_picture(std::move(rendered->layers), plan.grid);
-  if (!layers) return tl::unexpected(layers.error());
-  return PictureLayers{std::move(*flare), std::move(*layers)};
+  return layers_on_picture(std::move(*rendered), plan, rgb);
 }
 
 void add_layer_channels(Picture& picture, std::span<const FlareLayer> layers) {

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "contrejour/expert/parameter_text.h"
+#include "settings/added_parameters.h"
 #include "settings/parameter_tables.h"
 
 namespace contrejour::params {
@@ -48,9 +49,9 @@ Result<void> check_kind(const Parameter& p, std::string_view text) {
 
 std::vector<Parameter> joined_tables() {
   std::vector<Parameter> all;
-  for (const auto& part :
-       {lens_parameters(), dirt_parameters(), coating_parameters(), sensor_parameters(), light_parameters(),
-        frame_parameters(), ghost_parameters(), method_parameters(), effect_parameters(), detection_parameters()})
+  for (const auto& part : {lens_parameters(), dirt_parameters(), coating_parameters(), sensor_parameters(),
+                           light_parameters(), frame_parameters(), ghost_parameters(), method_parameters(),
+                           effect_parameters(), detection_parameters(), added_parameters()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -155,8 +155,10 @@ void render_changing(const TestHost& host, int thread, int renders, std::atomic<
   std::mt19937 random(static_cast<unsigned int>(thread));
   const std::vector<std::string> lenses = {"heliar", "tessar", "planar-50", "cooke-triplet"};
   for (int k = 0; k < renders; ++k) {
-    const auto shot = make_shot(host, k % 2 == 0 ? context::kGenerator : context::kFilter, 96 + (k % 3) * 16, 64,
+    const auto shot = make_shot(host, k % 2 == 0 ? context::kGenerator : context::kFilter, 48 + (k % 3) * 16, 32,
                                 lenses[random() % lenses.size()]);
+    shot->effect->set_text("wavelengths", "3");
+    shot->effect->set_text("error", "0.02");
     shot->effect->set("light1Position", {0.01 * (random() % 100), 0.01 * (random() % 100)});
     shot->effect->set("fnumber", {4.0 + 0.1 * (random() % 40)});
     shot->effect->set("blades", {random() % 2 == 0 ? 0.0 : 7.0});

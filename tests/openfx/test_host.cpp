@@ -20,7 +20,8 @@ Function symbol_of(void* library, const char* name) {
 }
 
 void* library() {
-  void* const opened = dlopen(CONTREJOUR_OPENFX_PLUGIN, RTLD_LAZY | RTLD_LOCAL);
+  const char* const other = std::getenv("CONTREJOUR_OPENFX_PLUGIN");
+  void* const opened = dlopen(other != nullptr ? other : CONTREJOUR_OPENFX_PLUGIN, RTLD_LAZY | RTLD_LOCAL);
   if (opened == nullptr) throw std::runtime_error(dlerror());
   return opened;
 }

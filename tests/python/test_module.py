@@ -241,7 +241,7 @@ class RaysTest(unittest.TestCase):
         origins[:, 1] = np.linspace(-0.05, 0.05, n)
         directions = np.tile([0.0, 0.0, 3.0], (n, 1))
         rays = contrejour.trace(state, origins, directions)
-        self.assertEqual(rays.stop.shape, (n, 3, 2))
+        self.assertEqual(rays.stop.shape, (n, 1, 2))
         self.assertTrue(rays.passed.all())
         self.assertLess(np.abs(rays.sensor_mm).max(), 1e-4)
         angle = 1e-4

@@ -1,13 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stubs of the native module have its names and arguments; the package exports what it lists."""
 import ast
+import importlib.util
 import inspect
+import os
 import pathlib
 import re
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import contrejour
 from contrejour import _native
+
+
+PROGRAM = """
+import numpy as np
+import contrejour
+state: contrejour.LensState = contrejour.configure_lens("heliar", f_number=8)
+image: np.ndarray = contrejour.render(state, [(12, 8)], width=9, height=6).image
+focal: float = state.first_order(550).focal_length_mm
+names: list[str] = [ghost.name for ghost in contrejour.ghosts(state)]
+dark: np.ndarray = contrejour.read_coating("v-coat").reflectance("N-BK7", [550, 600], 30)
+drawing: str = state.section_svg(ghosts=[(2, 5)])
+layers: dict[str, np.ndarray] = contrejour.render_layers(state, by="light").layers
+"""
 
 
 def stubs():
@@ -48,6 +66,21 @@ class StubsTest(unittest.TestCase):
                 for member, arguments in expected.items():
                     if arguments is not None:
                         self.assertEqual(len(arguments_of(getattr(found, member))), len(arguments), f"{name}.{member}")
+
+    def test_types(self):
+        """mypy finds no fault in the package, nor in a program that uses it, where mypy is installed."""
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("mypy is not installed (Debian: mypy)")
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "program.py")
+            program.write_text(PROGRAM, encoding="utf-8")
+            environment = {**os.environ, "MYPYPATH": str(pathlib.Path(contrejour.__file__).parents[1])}
+            checked = [sys.executable, "-m", "mypy", "--check-untyped-defs", "--no-error-summary", "--cache-dir", folder]
+            done = subprocess.run([*checked, str(program)], env=environment, capture_output=True,
+                                  text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            done = subprocess.run([*checked, "-p", "contrejour"], env=environment, capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_package(self):
         self.assertEqual(contrejour.__all__, sorted(contrejour.__all__))

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "contrejour/expert/flare_layers.h"
 #include "contrejour/expert/measured_flare.h"
 #include "contrejour/export.h"
 #include "contrejour/frame.h"
@@ -43,6 +44,13 @@ using FlareSource = std::variant<LensState, MeasuredFlare>;
 // size, because neither the file nor the caller states the field.
 [[nodiscard]] CONTREJOUR_API Result<Flare> render(const MeasuredFlare& flare, std::span<const Light> lights,
                                                   const Frame& frame, const Context& context = {});
+
+// The same in layers (flare_layers.h): by light; by ghost, named as in the file, the brightest of this frame first; by
+// part, which is one layer. Errors: also layers by surface, or a list of ghosts.
+[[nodiscard]] CONTREJOUR_API Result<LayeredFlare> render_layers(const MeasuredFlare& flare,
+                                                                std::span<const Light> lights, const Frame& frame,
+                                                                const LayerOptions& options,
+                                                                const Context& context = {});
 
 // The flare of either source. A measured flare takes the frame from the settings and ignores the rest.
 [[nodiscard]] CONTREJOUR_API Result<Flare> render(const MethodOptions& method, const FlareSource& source,

@@ -6,10 +6,12 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "contrejour/apply.h"
 #include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/picture_layers.h"
 #include "contrejour/export.h"
 
 namespace contrejour {
@@ -27,8 +29,19 @@ enum class MeasuredUse { Lights, Photograph };
 // values of lights then refer to the photographs' exposure. Errors: the file does not state its exposure.
 [[nodiscard]] CONTREJOUR_API Result<double> exposure_scale(const MeasuredFlare& flare, const params::Values& values);
 
+// The same lights in the exposure that the values state, by exposure_scale().
+[[nodiscard]] CONTREJOUR_API Result<std::vector<Light>> exposed_lights(const MeasuredFlare& flare,
+                                                                       std::vector<Light> lights,
+                                                                       const params::Values& values);
+
 // As render_flare() in apply.h, of a measured flare: each light is drawn as a point.
 [[nodiscard]] CONTREJOUR_API Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb,
                                                                const MeasuredFlare& flare, const Context& context = {});
+
+// As render_flare_layers() in picture_layers.h, of a measured flare.
+[[nodiscard]] CONTREJOUR_API Result<PictureLayers> render_flare_layers(const FlarePlan& plan, const Image& rgb,
+                                                                       const MeasuredFlare& flare,
+                                                                       const LayerOptions& options,
+                                                                       const Context& context = {});
 
 }  // namespace contrejour

@@ -2,14 +2,16 @@
 // Requests of a front end for a user's values (parameter_values.h): the picture that `contrejour render` draws, the
 // ghosts that `contrejour ghosts` lists, the lights that `contrejour apply` finds. A front end that goes this way gets
 // the command line's results, bit for bit. Errors: InvalidArgument; Io, Parse and Unsupported for files
-// that a value names; Cancelled. Thread-safety: pure functions, but for the renderer and the pixels that they write.
+// that a value names. Thread-safety: pure functions, but for the renderer and the pixels that they write.
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "contrejour/context.h"
 #include "contrejour/expert/light_detection.h"
+#include "contrejour/expert/measured_flare.h"
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/expert/pixel_grid.h"
 #include "contrejour/expert/render_statistics.h"
@@ -25,18 +27,29 @@
 namespace contrejour {
 
 // A picture of grid.width x grid.height pixels. Where its pixels are not square on the sensor, the rendered frame is
-// another one (pixel_grid.h).
+// another one (pixel_grid.h). Renderers of either kind of source draw it (source_renderer.h).
 struct PictureRequest {
   PixelGrid grid;
+  double pixel_aspect = 1.0;  // of the picture's pixels as displayed
   std::vector<Light> lights;
   FrameSettings settings;
+  std::vector<std::string> warnings;  // for the user: lights beyond a measured flare's angles
 };
 
-// The picture of --size. Its lights are `lights`, then those of the values; without any, the one of params::lights().
-[[nodiscard]] CONTREJOUR_API Result<PictureRequest> picture_request(const params::Values& values, const LensState& lens,
-                                                                    std::span<const Light> lights = {});
+// The lights of a picture to which neither the caller nor the values give any: the one of params::lights(), or none.
+enum class WithoutLights { DefaultLight, Dark };
 
-// Renders it by a renderer that has the lens and the method. Errors: also a flare that is not finite.
+// The picture of --size. Its lights are `lights`, then those of the values.
+[[nodiscard]] CONTREJOUR_API Result<PictureRequest> picture_request(
+    const params::Values& values, const LensState& lens, std::span<const Light> lights = {},
+    WithoutLights without = WithoutLights::DefaultLight);
+// The same of a measured flare, with the lights in the exposure that the values state. Errors: also those of
+// check_measured_values().
+[[nodiscard]] CONTREJOUR_API Result<PictureRequest> picture_request(
+    const params::Values& values, const MeasuredFlare& flare, std::span<const Light> lights = {},
+    WithoutLights without = WithoutLights::DefaultLight);
+
+// Renders it by a renderer that has the lens and the method. Errors: also a flare that is not finite; Cancelled.
 [[nodiscard]] CONTREJOUR_API Result<Flare> render_picture(const PictureRequest& request, Renderer& renderer,
                                                           const Context& context = {});
 // The same into a caller's pixels, which square pixels reach without a copy.

@@ -14,8 +14,6 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr const char* kRest = "rest";
-
 double brightness(const Light& light) {
   return std::max({std::abs(light.value[0]), std::abs(light.value[1]), std::abs(light.value[2])});
 }
@@ -29,14 +27,13 @@ std::vector<std::size_t> by_falling(std::size_t count, const Value& value) {
   return order;
 }
 
-// The name with a number behind it if it is taken.
-std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+}  // namespace
+
+std::string unique_layer_name(const std::string& name, std::set<std::string>& taken) {
   std::string unique = name;
   for (int k = 2; !taken.insert(unique).second; ++k) unique = fmt::format("{}_{}", name, k);
   return unique;
 }
-
-}  // namespace
 
 LayerMap::LayerMap(const LayerOptions& options, std::span<const Ghost> ghosts, std::span<const double> flux_fractions,
                    std::span<const Light> lights) {
@@ -54,7 +51,7 @@ void LayerMap::add_ghosts(std::span<const Ghost> ghosts) {
     ghosts_.push_back(ghost);
     names_.push_back(layer_name(ghost));
   }
-  names_.emplace_back(kRest);
+  names_.emplace_back(kRestLayer);
 }
 
 void LayerMap::add_surfaces(std::span<const Ghost> ghosts) {
@@ -69,7 +66,7 @@ void LayerMap::add_lights(std::span<const std::string> names, std::span<const Li
   const auto order = by_falling(lights.size(), [&](std::size_t k) { return brightness(lights[k]); });
   std::vector<bool> is_own(lights.size(), false);
   for (std::size_t k = 0; k < std::min(lights.size(), kMaxLightLayers); ++k) is_own[order[k]] = true;
-  std::set<std::string> taken{kRest};
+  std::set<std::string> taken{kRestLayer};
   is_by_light_ = true;
   by_light_.assign(lights.size(), 0);
   for (std::size_t k = 0; k < lights.size(); ++k) {
@@ -77,12 +74,12 @@ void LayerMap::add_lights(std::span<const std::string> names, std::span<const Li
     const std::string name = is_named ? layer_name(names[k]) : fmt::format("light{}", k + 1);
     if (!is_own[k]) continue;
     by_light_[k] = names_.size();
-    names_.push_back(unique_name(name, taken));
+    names_.push_back(unique_layer_name(name, taken));
   }
   if (lights.size() <= kMaxLightLayers) return;
   for (std::size_t k = 0; k < lights.size(); ++k)
     if (!is_own[k]) by_light_[k] = names_.size();
-  names_.emplace_back(kRest);
+  names_.emplace_back(kRestLayer);
 }
 
 std::size_t LayerMap::of(const Ghost& ghost, std::size_t light) const {
@@ -91,7 +88,7 @@ std::size_t LayerMap::of(const Ghost& ghost, std::size_t light) const {
   return found != by_ghost_.end() ? found->second : names_.size() - 1;
 }
 
-Result<void> check_layers(const LensState& lens, const LayerOptions& options) {
+Result<void> check_layers(const LayerOptions& options) {
   if (options.ghost_count < 0)
     return failure(ErrorCode::InvalidArgument,
                    fmt::format("{} layers of ghosts is out of range; choose 0 or more", options.ghost_count));
@@ -99,6 +96,11 @@ Result<void> check_layers(const LensState& lens, const LayerOptions& options) {
     return failure(
         ErrorCode::InvalidArgument,
         fmt::format("a layer's least flux of {} per cent is out of range; choose 0 to 100", options.min_percent));
+  return {};
+}
+
+Result<void> check_layers(const LensState& lens, const LayerOptions& options) {
+  if (auto good = check_layers(options); !good) return good;
   for (const Ghost& ghost : options.ghosts)
     if (!has_ghost(lens, ghost))
       return failure(ErrorCode::InvalidArgument,

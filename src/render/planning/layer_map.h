@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,7 +39,13 @@ class LayerMap {
   std::vector<std::size_t> by_light_;
 };
 
-// Errors: InvalidArgument (render_layers()).
+inline constexpr const char* kRestLayer = "rest";
+
+// The name with a number behind it if it is taken.
+[[nodiscard]] std::string unique_layer_name(const std::string& name, std::set<std::string>& taken);
+
+// Errors: InvalidArgument (render_layers()). Without a lens: all but the list of ghosts.
+[[nodiscard]] Result<void> check_layers(const LayerOptions& options);
 [[nodiscard]] Result<void> check_layers(const LensState& lens, const LayerOptions& options);
 
 [[nodiscard]] bool needs_flux(const LayerOptions& options);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "cli/section.h"
-#include "cli/svg.h"
+#include "contrejour/expert/lens_section.h"
+#include "contrejour/expert/svg.h"
 
-namespace contrejour::cli {
+namespace contrejour::inline internal {
 
 inline constexpr double kPageWidth_px = 1400, kPageMargin_px = 48, kPageTop_px = 96, kPageBottom_px = 84;
 inline constexpr double kMaxSectionHeight_px = 760;
@@ -23,12 +23,12 @@ struct RayStyle {
 };
 
 // Ghosts have six colours, which are used again after the last.
-[[nodiscard]] RayStyle style_of(RayKind kind, std::size_t ghost = 0);
+[[nodiscard]] RayStyle style_of(SectionRayKind kind, std::size_t ghost = 0);
 
 // Millimetres of the section -> pixels of the drawing.
 class SectionPage {
  public:
-  explicit SectionPage(const Section& section) : section_(section) {
+  explicit SectionPage(const LensSection& section) : section_(section) {
     const double length_mm = section.right_mm - section.left_mm;
     scale_ =
         std::min((kPageWidth_px - 2 * kPageMargin_px) / length_mm, kMaxSectionHeight_px / (2 * section.half_height_mm));
@@ -44,16 +44,16 @@ class SectionPage {
   [[nodiscard]] double left() const { return left_px_; }
 
  private:
-  const Section& section_;
+  const LensSection& section_;
   double scale_ = 1, left_px_ = 0, axis_px_ = 0;
 };
 
 void draw_title(Svg& svg, const LensState& lens);
-void draw_legend(Svg& svg, const Section& section);
+void draw_legend(Svg& svg, const LensSection& section);
 void draw_scale_bar(Svg& svg, const SectionPage& page);
 
 // Draws each surface's number below the lens, with a line to its rim. The numbers of surfaces that reflect have the
 // colour of their ghost.
-void draw_surface_numbers(Svg& svg, const SectionPage& page, const Section& section);
+void draw_surface_numbers(Svg& svg, const SectionPage& page, const LensSection& section);
 
-}  // namespace contrejour::cli
+}  // namespace contrejour::inline internal

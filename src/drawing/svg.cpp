@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/svg.h"
+#include "contrejour/expert/svg.h"
 
 #include <fmt/format.h>
 
-#include "cli/markup.h"
-
-namespace contrejour::cli {
+namespace contrejour {
 Svg::Svg(double width, double height) : width_(width), height_(height) {}
 
 void Svg::rectangle(Vec2 corner, Vec2 size, const std::string& style) {
@@ -54,4 +52,4 @@ std::string Svg::finish() const {
       width_, height_, body_);
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour

@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/section_page.h"
+#include "drawing/section_page.h"
+#include "drawing/section_shapes.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 namespace {
 
 constexpr double kLabelGap_px = 19, kLegendColumn_px = 210;
@@ -51,7 +52,7 @@ struct SurfaceLabel {
   const char* ghost_colour = nullptr;  // null: the surface does not reflect
 };
 
-std::vector<SurfaceLabel> labels_of(const SectionPage& page, const Section& section) {
+std::vector<SurfaceLabel> labels_of(const SectionPage& page, const LensSection& section) {
   std::vector<SurfaceLabel> labels;
   for (const SurfaceState& s : section.lens.surfaces) {
     const bool is_stop = s.kind == SurfaceKind::Stop;
@@ -60,7 +61,8 @@ std::vector<SurfaceLabel> labels_of(const SectionPage& page, const Section& sect
     SurfaceLabel label{fmt::format("{}", number), page.at({s.z_mm + (is_stop ? 0.0 : sag_mm(s, h)), -h}), is_stop};
     const auto ghost = std::ranges::find_if(section.ghosts, [&](const Ghost& g) { return g.reflects_at(number); });
     if (ghost != section.ghosts.end())
-      label.ghost_colour = style_of(RayKind::Ghost, static_cast<std::size_t>(ghost - section.ghosts.begin())).colour;
+      label.ghost_colour =
+          style_of(SectionRayKind::Ghost, static_cast<std::size_t>(ghost - section.ghosts.begin())).colour;
     labels.push_back(std::move(label));
   }
   return labels;
@@ -84,33 +86,35 @@ struct LegendEntry {
   std::string text;
 };
 
-std::vector<LegendEntry> legend_of(const Section& section) {
-  const RayStyle axis = style_of(RayKind::Axis);
-  if (section.ghosts.empty()) return {{axis, "axis"}, {style_of(RayKind::Field), "corner of the field"}};
+std::vector<LegendEntry> legend_of(const LensSection& section) {
+  const RayStyle axis = style_of(SectionRayKind::Axis);
+  if (section.ghosts.empty()) return {{axis, "axis"}, {style_of(SectionRayKind::Field), "corner of the field"}};
   std::vector<LegendEntry> entries{{axis, fmt::format("image of a light {:.1f}° up", section.ghost_light_deg)}};
   for (std::size_t g = 0; g < section.ghosts.size(); ++g) {
     const auto is_blocked = [&](const SectionRay& ray) {
-      return ray.kind == RayKind::Ghost && ray.ghost == g && ray.blocked;
+      return ray.kind == SectionRayKind::Ghost && ray.ghost == g && ray.blocked;
     };
     const bool blocked = std::any_of(section.rays.begin(), section.rays.end(), is_blocked);
     entries.push_back(
-        {style_of(RayKind::Ghost, g), "ghost " + ghost_name(section.ghosts[g]) + (blocked ? " (blocked)" : "")});
+        {style_of(SectionRayKind::Ghost, g), "ghost " + ghost_name(section.ghosts[g]) + (blocked ? " (blocked)" : "")});
   }
   return entries;
 }
 
 }  // namespace
 
-RayStyle style_of(RayKind kind, std::size_t ghost) {
+inline namespace internal {
+
+RayStyle style_of(SectionRayKind kind, std::size_t ghost) {
   switch (kind) {
-    case RayKind::Axis: return {"#2f6fb5", 1.1, 0.85};
-    case RayKind::Field: return {"#2d8f6a", 1.1, 0.85};
-    case RayKind::Ghost: return {kGhostInks[ghost % kGhostInks.size()], 1.2, 0.9};
+    case SectionRayKind::Axis: return {"#2f6fb5", 1.1, 0.85};
+    case SectionRayKind::Field: return {"#2d8f6a", 1.1, 0.85};
+    case SectionRayKind::Ghost: return {kGhostInks[ghost % kGhostInks.size()], 1.2, 0.9};
   }
   return {kInk, 1, 1};
 }
 
-void draw_surface_numbers(Svg& svg, const SectionPage& page, const Section& section) {
+void draw_surface_numbers(Svg& svg, const SectionPage& page, const LensSection& section) {
   const std::vector<SurfaceLabel> labels = labels_of(page, section);
   std::vector<double> desired;
   for (const SurfaceLabel& label : labels) desired.push_back(label.rim.x);
@@ -123,7 +127,7 @@ void draw_surface_numbers(Svg& svg, const SectionPage& page, const Section& sect
            fmt::format("font-size=\"11\" text-anchor=\"end\" font-style=\"italic\" fill=\"{}\"", kInk));
 }
 
-void draw_legend(Svg& svg, const Section& section) {
+void draw_legend(Svg& svg, const LensSection& section) {
   double y = 40;
   double right = kPageWidth_px - kPageMargin_px;
   for (const LegendEntry& entry : legend_of(section)) {
@@ -159,4 +163,6 @@ void draw_title(Svg& svg, const LensState& lens) {
            fmt::format("font-size=\"14\" fill=\"{}\"", kPaleInk));
 }
 
-}  // namespace contrejour::cli
+}  // namespace internal
+
+}  // namespace contrejour

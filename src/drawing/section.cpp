@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/section.h"
+#include "contrejour/expert/lens_section.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "contrejour/expert/check_lens.h"
+#include "contrejour/expert/ghost.h"
+#include "contrejour/expert/trace.h"
 #include "contrejour/light.h"
+#include "drawing/section_shapes.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 namespace {
 
 constexpr int kTriedRays = 2001;  // rays that are tried across the entrance window
@@ -46,7 +51,7 @@ SectionRay record(const OpticalPath& path, Vec3 origin, Vec3 direction, double l
 }
 
 // Adds `count` rays, evenly spaced over those that pass.
-void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind kind, int count,
+void add_fan(LensSection& section, const OpticalPath& path, Vec3 direction, SectionRayKind kind, int count,
              std::size_t ghost = 0) {
   const EntranceWindow window = entrance_window(section.lens, direction);
   const std::vector<TriedRay> passing = rays_that_pass(path, window, direction);
@@ -62,20 +67,9 @@ void add_fan(Section& section, const OpticalPath& path, Vec3 direction, RayKind 
   }
 }
 
-std::vector<Element> find_elements(const LensState& lens) {
-  std::vector<Element> elements;
-  for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
-    if (lens.surfaces[k].kind == SurfaceKind::Stop || is_air(lens.surfaces[k].after)) continue;
-    std::size_t next = k + 1;
-    while (next < lens.surfaces.size() && lens.surfaces[next].kind == SurfaceKind::Stop) ++next;
-    if (next < lens.surfaces.size()) elements.push_back({k, next});
-  }
-  return elements;
-}
-
 double half_diagonal_mm(const LensState& lens) { return 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm); }
 
-void set_bounds(Section& section) {
+void set_bounds(LensSection& section) {
   const LensState& lens = section.lens;
   double leftmost = 0.0;
   double highest = half_diagonal_mm(lens);
@@ -96,6 +90,15 @@ LensState as_drawn(LensState lens) {
   return lens;
 }
 
+void add_rays_of_ghosts(LensSection& section, const LensState& lens, const SectionRequest& request, Vec3 light) {
+  add_fan(section, direct_path(lens, request.lambda_nm), light, SectionRayKind::Axis, kImagingRays);
+  const int rays = request.ghosts.size() > 1 ? kRaysOfEachGhost : kRaysOfSingleGhost;
+  for (std::size_t g = 0; g < request.ghosts.size(); ++g) {
+    if (!has_ghost(lens, request.ghosts[g])) continue;
+    add_fan(section, ghost_path(lens, request.ghosts[g], request.lambda_nm), light, SectionRayKind::Ghost, rays, g);
+  }
+}
+
 }  // namespace
 
 bool has_real_rim(const LensState& lens, const SurfaceState& surface) {
@@ -103,44 +106,25 @@ bool has_real_rim(const LensState& lens, const SurfaceState& surface) {
   return surface.semi_diameter_mm <= kFarBeyond * half_diagonal_mm(lens);
 }
 
-double drawn_height_mm(const SurfaceState& surface) {
-  constexpr double kNearlyHalfSphere = 0.9999;
-  if (!surface.shape.is_sphere()) return surface.semi_diameter_mm;
-  const double curvature = std::abs(surface.curvature_per_mm);
-  return std::min(surface.semi_diameter_mm, curvature > 0.0 ? kNearlyHalfSphere / curvature : surface.semi_diameter_mm);
-}
-
-double sag_mm(const SurfaceState& surface, double height_mm) {
-  const double c = surface.curvature_per_mm;
-  if (!surface.shape.is_sphere()) {
-    const auto point = surface_at(c, surface.shape, {0.0, height_mm});
-    return point ? point->sag_mm : 0.0;
-  }
-  return c * height_mm * height_mm / (1.0 + std::sqrt(std::max(0.0, 1.0 - c * c * height_mm * height_mm)));
-}
-
-Section make_section(const LensState& lens, const SectionRequest& request) {
-  Section section;
+LensSection lens_section(const LensState& lens, const SectionRequest& request) {
+  LensSection section;
   section.lens = as_drawn(lens);
-  section.elements = find_elements(lens);
+  if (!check_lens(lens)) return section;
+  add_shapes(section);
   section.ghosts = request.ghosts;
   set_bounds(section);
-  const OpticalPath direct = direct_path(lens, request.lambda_nm);
   const Vec3 field = direction_for_image_point(lens, {0.0, -half_diagonal_mm(lens)}, request.lambda_nm);
   if (request.ghosts.empty()) {
-    add_fan(section, direct, field, RayKind::Field, kImagingRays);
-    add_fan(section, direct, {0.0, 0.0, 1.0}, RayKind::Axis, kImagingRays);
+    const OpticalPath direct = direct_path(lens, request.lambda_nm);
+    add_fan(section, direct, field, SectionRayKind::Field, kImagingRays);
+    add_fan(section, direct, {0.0, 0.0, 1.0}, SectionRayKind::Axis, kImagingRays);
     return section;
   }
   const double light_rad =
       request.ghost_light_rad.value_or(kGhostLightField * angles_from_direction(field).elevation_rad);
-  section.ghost_light_deg = light_rad * 180.0 / 3.14159265358979323846;
-  const Vec3 light = direction_from_angles(0.0, light_rad);
-  add_fan(section, direct, light, RayKind::Axis, kImagingRays);
-  const int rays = request.ghosts.size() > 1 ? kRaysOfEachGhost : kRaysOfSingleGhost;
-  for (std::size_t g = 0; g < request.ghosts.size(); ++g)
-    add_fan(section, ghost_path(lens, request.ghosts[g], request.lambda_nm), light, RayKind::Ghost, rays, g);
+  section.ghost_light_deg = light_rad * 180.0 / std::numbers::pi;
+  add_rays_of_ghosts(section, lens, request, direction_from_angles(0.0, light_rad));
   return section;
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour

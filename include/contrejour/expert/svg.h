@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A few elements of SVG, written as text. Coordinates are in pixels, y downwards.
+// A few elements of SVG, written as text. Coordinates are in pixels, y downwards. Thread-safety: plain values.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contrejour/expert/vec.h"
+#include "contrejour/export.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 
-class Svg {
+// The text with the characters escaped that mean something in HTML and SVG, quotes included, so that it may stand in an
+// attribute; control characters, which XML does not allow, become spaces.
+[[nodiscard]] CONTREJOUR_API std::string markup_text(std::string_view text);
+
+class CONTREJOUR_API Svg {
  public:
   Svg(double width, double height);
 
@@ -32,4 +38,4 @@ class Svg {
   int clips_ = 0;
 };
 
-}  // namespace contrejour::cli
+}  // namespace contrejour

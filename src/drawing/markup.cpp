@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/markup.h"
+#include "contrejour/expert/svg.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 
 std::string markup_text(std::string_view text) {
   std::string out;
@@ -18,4 +18,4 @@ std::string markup_text(std::string_view text) {
   return out;
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour
