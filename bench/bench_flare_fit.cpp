@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flares fitted to simulated captures of lenses whose prescriptions say what is right: a program of its own.
-//   flare_fit [LENS] [STATIONS] [RAW WIDTH]
+//   flare_fit [LENS] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES]
 // Each ghost by itself, as the exact renderer draws it at one angle, is compared with the fitted ghost by itself: its
-// middle over the light's place (speed), its RMS height (size), its flux, the RMS difference over its bright level.
-// Only pixels above a part of that level count: caustic ghosts have faint skirts far outside what a picture shows.
-// Ghosts that do not lie within the picture at this angle are not listed.
+// middle over the light's place (speed), its RMS height (size), its flux, and the RMS difference over its bright level.
+// `in picture` is the RMS difference of all ghosts together over the ghost's body, over its bright level, but for a
+// constant: the light scattered everywhere is in the captured pictures, and the flare's veil has it. Only pixels above
+// a part of that level are its body: caustic ghosts have faint skirts far outside what a picture shows. A ghost is
+// listed if a picture can show it: its body lies within the frame and beside the light's masked image, stands out of
+// the noise, and is not buried under brighter ghosts; of those that coincide the brightest stands for all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "contrejour/expert/first_order.h"
-#include "contrejour/expert/fit_flare.h"
-#include "contrejour/expert/ghost.h"
-#include "contrejour/expert/sweep.h"
-#include "contrejour/frame.h"
-#include "contrejour/light.h"
-#include "contrejour/render.h"
+#include "contrejour/image_io.h"
+#include "flare_fit_cache.h"
 
 using namespace contrejour;
 
 namespace {
 
 constexpr double kLambda_nm = 550.0;
-constexpr double kPart = 0.45;     // of the range: the angle of the comparison
-constexpr double kCounts = 0.3;    // of a ghost's bright level: what belongs to its body
+constexpr double kPart = 0.45;  // of the range: the angle of the comparison
+constexpr double kCounts = 0.3;  // of a ghost's bright level: what belongs to its body
 constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
+constexpr double kCoincide = 0.03;  // the same of two true ghosts that no picture could tell apart
+constexpr double kBuried = 0.1;  // of what the other ghosts have in its body: a dimmer ghost cannot be made out
+constexpr double kNoise = 3.0;  // standard deviations of a dark pixel
+constexpr double kMasked = 0.015;  // of the width, about the light
 constexpr std::size_t kBrightest = 12;
 
 // The figures of a ghost, taken from a picture of it alone.
@@ -46,7 +50,10 @@ struct Comparison {
   Frame frame;
   TangentFrame tangents;
   double s = 0;
+  double noise = 0;  // the standard deviation of a dark pixel in units of the light
 };
+
+constexpr double kRadians = 0.017453292519943295;
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -102,64 +109,60 @@ bool is_within(const Image& picture, double peak) {
   return edge < kCounts * peak;
 }
 
-Comparison comparison_of(const LensState& lens, int width, int height, double s_max) {
-  Comparison at{frame_on_sensor(lens, width, height), {}, kPart * s_max};
+Comparison comparison_of(const LensState& lens, const SimulatedCapture& capture, double light) {
+  const Image& first = capture.pictures.front().rate;
+  Comparison at{frame_on_sensor(lens, first.width, first.height), {}, 0.0, 0.0};
+  at.s = kPart * std::tan(capture.settings.angles_deg.back() * kRadians);
   const double focal_length_px = first_order(lens, kLambda_nm).focal_length_mm / at.frame.pixel_pitch_mm;
-  at.tangents = {width, height, focal_length_px, {0.5 * width, 0.5 * height}};
+  at.tangents = {first.width, first.height, focal_length_px, {0.5 * first.width, 0.5 * first.height}};
+  std::vector<float> variances(capture.pictures.front().variance.pixels.begin(),
+                               capture.pictures.front().variance.pixels.end());
+  const auto low = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 10);
+  std::ranges::nth_element(variances, low);
+  at.noise = std::sqrt(3.0 * static_cast<double>(*low)) / light;  // of the sum of three channels
   return at;
 }
 
-// The ghosts that lie within the picture, the brightest first.
-std::vector<TrueGhost> true_ghosts(const LensState& lens, const Comparison& at) {
-  Light light;
-  light.direction = direction_from_angles(std::atan(at.s), 0.0);
-  light.radius_rad = SweepSettings{}.source_radius_rad;
-  FrameSettings settings;
-  settings.frame = at.frame;
-  settings.starburst.on = false;
-  settings.glare.fraction = 0.0;
-  std::vector<TrueGhost> ghosts;
-  for (const Ghost& ghost : enumerate_ghosts(lens, GhostScope::All)) {
-    settings.selection = SelectList{{ghost}};
-    Result<Flare> flare = render(AdaptiveOptions{}, lens, std::span(&light, 1), settings);
-    if (!flare) continue;
-    TrueGhost one{ghost, std::move(flare->image), {}};
-    one.moments = moments_of(one.picture, at);
-    if (one.moments.peak > 0.0 && is_within(one.picture, one.moments.peak)) ghosts.push_back(std::move(one));
-  }
-  std::ranges::sort(ghosts, [](const TrueGhost& a, const TrueGhost& b) { return a.moments.peak > b.moments.peak; });
-  return ghosts;
+bool coincide(const GhostMoments& a, const GhostMoments& b) {
+  return std::hypot((a.speed - b.speed) / std::max(std::abs(a.speed), 0.5), std::log(a.size / b.size)) < kCoincide;
 }
 
-struct Capture {
-  SweepSettings settings;
-  std::vector<CapturedImage> pictures;
-  std::vector<DirectImage> lights;
-  std::vector<std::optional<DirectFlux>> direct;
+// Whether the other ghosts leave it to be made out.
+bool is_buried(const TrueGhost& ghost, const Image& all) {
+  double own = 0.0, others = 0.0;
+  for (std::size_t k = 0; 3 * k < all.pixels.size(); ++k) {
+    const double value = grey_at(ghost.picture, k);
+    if (value < kCounts * ghost.moments.peak) continue;
+    own += value;
+    others += grey_at(all, k) - value;
+  }
+  return own < kBuried * others;
+}
+
+struct TrueGhosts {
+  Image all;  // of all, listed or not
+  std::vector<TrueGhost> listed;  // the brightest first
 };
 
-Result<Capture> captured(const LensState& lens, int stations, int raw_width) {
-  Capture capture;
-  SweepSettings& s = capture.settings;
-  s.width = raw_width;
-  s.height = 2 * static_cast<int>(0.5 * raw_width * lens.sensor_height_mm / lens.sensor_width_mm);
-  s.angles_deg = even_angles_deg(0.95 * largest_angle_deg(lens), stations);
-  const Result<double> light = automatic_light_rate(lens, s);
-  if (!light) return tl::unexpected(light.error());
-  s.light_rate = *light;
-  for (std::size_t k = 0; k < s.angles_deg.size(); ++k) {
-    const Result<SweepStation> station = simulate_station(lens, s, k);
-    if (!station) return tl::unexpected(station.error());
-    Result<CapturedImage> picture = merge_exposures(station->exposures, station->background);
-    if (!picture) return tl::unexpected(picture.error());
-    capture.pictures.push_back(std::move(*picture));
-    capture.direct.emplace_back();
-    if (const auto flux = direct_flux(station->direct)) {
-      capture.direct.back() = *flux;
-      capture.lights.push_back({s.angles_deg[k] * 0.017453292519943295, flux->position_px});
-    }
+TrueGhosts true_ghosts(std::vector<DrawnGhost> drawn, const Comparison& at) {
+  TrueGhosts ghosts;
+  ghosts.all = Image(at.frame.width, at.frame.height);
+  std::vector<TrueGhost> candidates;
+  for (DrawnGhost& one : drawn) {
+    for (std::size_t k = 0; k < one.picture.pixels.size(); ++k) ghosts.all.pixels[k] += one.picture.pixels[k];
+    candidates.push_back({one.ghost, std::move(one.picture), {}});
+    candidates.back().moments = moments_of(candidates.back().picture, at);
   }
-  return capture;
+  std::ranges::sort(candidates, std::greater(), [](const TrueGhost& g) { return g.moments.peak; });
+  const double light_px = at.s * at.tangents.focal_length_px;
+  for (TrueGhost& one : candidates) {
+    const GhostMoments& m = one.moments;
+    const bool masked = std::abs(m.speed - 1.0) * light_px < std::max(2.0, kMasked * at.frame.width);
+    if (m.peak < kNoise * at.noise || masked || !is_within(one.picture, m.peak) || is_buried(one, ghosts.all)) continue;
+    const auto same = [&](const TrueGhost& other) { return coincide(other.moments, m); };
+    if (std::ranges::none_of(ghosts.listed, same)) ghosts.listed.push_back(std::move(one));
+  }
+  return ghosts;
 }
 
 struct FittedGhost {
@@ -196,84 +199,156 @@ const FittedGhost* match_of(const TrueGhost& truth, const std::vector<FittedGhos
   return best;
 }
 
-double rms_difference(const Image& a, const Image& b, double peak) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t k = 0; k < a.pixels.size(); k += 3) {
-    const double in_a = static_cast<double>(a.pixels[k] + a.pixels[k + 1] + a.pixels[k + 2]);
-    const double in_b = static_cast<double>(b.pixels[k] + b.pixels[k + 1] + b.pixels[k + 2]);
-    if (in_a < kCounts * peak) continue;
-    sum += (in_a - in_b) * (in_a - in_b);
-    ++count;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+// The middle difference of two pictures.
+double offset_of(const Image& a, const Image& b) {
+  std::vector<double> differences;
+  for (std::size_t k = 0; 3 * k < a.pixels.size(); ++k) differences.push_back(grey_at(a, k) - grey_at(b, k));
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::ranges::nth_element(differences, middle);
+  return *middle;
 }
 
-void print_ghosts(const std::vector<TrueGhost>& ghosts, const std::vector<FittedGhost>& fitted) {
-  std::size_t found = 0;
-  const std::size_t count = std::min(ghosts.size(), kBrightest);
+// The RMS difference of two pictures, less a constant, over the body of a ghost, over its bright level.
+double nrmse_of(const Image& a, const Image& b, const TrueGhost& ghost, double offset = 0.0) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; 3 * k < a.pixels.size(); ++k) {
+    if (grey_at(ghost.picture, k) < kCounts * ghost.moments.peak) continue;
+    sum += std::pow(grey_at(a, k) - grey_at(b, k) - offset, 2);
+    ++count;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) / ghost.moments.peak : 0.0;
+}
+
+double percent_off(double fitted, double truth) { return 100.0 * (fitted / truth - 1.0); }
+
+void print_ghosts(const TrueGhosts& ghosts, const MeasuredFlare& flare, const Comparison& at) {
+  const std::vector<FittedGhost> fitted = fitted_ghosts(flare, at);
+  const FlareLight light{{at.s, 0.0}, {1.0, 1.0, 1.0}};
+  const Image all = render_measured(flare, std::span(&light, 1), at.tangents).value();
+  const double offset = offset_of(ghosts.all, all);
+  std::size_t found = 0, below = 0;
+  const std::size_t count = std::min(ghosts.listed.size(), kBrightest);
   for (std::size_t k = 0; k < count; ++k) {
-    const GhostMoments& truth = ghosts[k].moments;
-    std::printf("  %2d-%-2d peak %8.2e speed %8.4f size %6.2f px", ghosts[k].ghost.i, ghosts[k].ghost.j, truth.peak,
-                truth.speed, truth.size);
-    if (const FittedGhost* match = match_of(ghosts[k], fitted)) {
+    const TrueGhost& ghost = ghosts.listed[k];
+    const GhostMoments& truth = ghost.moments;
+    const double in_picture = nrmse_of(ghosts.all, all, ghost, offset);
+    if (in_picture < 0.1) ++below;
+    std::printf("  %2d-%-2d peak %8.2e speed %8.4f size %6.2f px  in picture %5.1f %%", ghost.ghost.i, ghost.ghost.j,
+                truth.peak, truth.speed, truth.size, 100.0 * in_picture);
+    if (const FittedGhost* match = match_of(ghost, fitted)) {
       const GhostMoments& fit = match->moments;
-      std::printf("   speed %+6.2f %%  size %+6.2f %%  flux %+6.1f %%  NRMSE %4.1f %%",
-                  100.0 * (fit.speed / truth.speed - 1.0), 100.0 * (fit.size / truth.size - 1.0),
-                  100.0 * (fit.flux / truth.flux - 1.0),
-                  100.0 * rms_difference(ghosts[k].picture, match->picture, truth.peak) / truth.peak);
+      std::printf("   speed %+6.2f %%  size %+6.2f %%  flux %+6.1f %%  alone %4.1f %%",
+                  percent_off(fit.speed, truth.speed), percent_off(fit.size, truth.size),
+                  percent_off(fit.flux, truth.flux), 100.0 * nrmse_of(ghost.picture, match->picture, ghost));
       if (k < 10) ++found;
     }
     std::printf("\n");
   }
-  std::printf("  found %zu of the %zu brightest\n", found, std::min<std::size_t>(count, 10));
+  std::printf("  found %zu of the %zu brightest; below 10 %% in the picture: %zu of %zu\n", found,
+              std::min<std::size_t>(count, 10), below, count);
 }
 
-int run(const std::string& name, int stations, int raw_width) {
+// Captured, fitted and what is left (red: too dark, blue: too bright), one above the other.
+void write_pictures(const FittedFlare& fit, const std::string& folder, const std::string& name) {
+  for (const FittedStation& station : fit.stations) {
+    const Image& captured = station.captured_picture;
+    if (captured.pixels.empty()) continue;
+    std::vector<float> sorted(captured.pixels.begin(), captured.pixels.end());
+    std::ranges::sort(sorted);
+    const float bright = sorted[sorted.size() * 995 / 1000];
+    Image sheet(captured.width, 3 * captured.height);
+    const std::size_t size = captured.pixels.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const float a = captured.pixels[k] / bright, b = station.fitted_picture.pixels[k] / bright;
+      sheet.pixels[k] = std::max(a, 0.0F);
+      sheet.pixels[size + k] = std::max(b, 0.0F);
+      if (k % 3 == 1) continue;
+      const float left =
+          captured.pixels[k / 3 * 3 + 1] / bright - station.fitted_picture.pixels[k / 3 * 3 + 1] / bright;
+      sheet.pixels[2 * size + k] = std::max(k % 3 == 0 ? left : -left, 0.0F);
+    }
+    const std::string file = folder + "/" + name + "-" + std::to_string(station.station) + ".png";
+    if (!write_preview_png(file, sheet)) std::printf("  %s could not be written\n", file.c_str());
+  }
+}
+
+FlareSweep sweep_of(const SimulatedCapture& capture, double light) {
+  FlareSweep sweep;
+  for (const double angle : capture.settings.angles_deg) sweep.angles_rad.push_back(angle * kRadians);
+  sweep.light = {light, light, light};
+  sweep.direct = capture.direct;
+  sweep.picture = [&capture](std::size_t k) -> Result<CapturedImage> { return capture.pictures[k]; };
+  return sweep;
+}
+
+// The RMS relative error of the flux by angle.
+double flux_error(const FittedFlare& fit) {
+  double sum = 0.0;
+  for (const FittedStation& station : fit.stations) sum += std::pow(station.fitted / station.captured - 1.0, 2);
+  return std::sqrt(sum / static_cast<double>(fit.stations.size()));
+}
+
+struct Run {
+  int stations = 61, raw_width = 1200;
+  std::string kept, pictures;  // folders; empty: none
+};
+
+int run(const std::string& name, const Run& settings) {
   const Result<Prescription> prescription = find_lens(name);
   if (!prescription) return 1;
   const LensState lens = *configure_lens(*prescription, {});
-  const Result<Capture> capture = captured(lens, stations, raw_width);
+  const std::string kept = settings.kept.empty()
+                               ? ""
+                               : settings.kept + "/" + name + "-" + std::to_string(settings.stations) + "-" +
+                                     std::to_string(settings.raw_width);
+  const Result<SimulatedCapture> capture = simulated_capture(lens, settings.stations, settings.raw_width, kept);
   if (!capture) {
     std::printf("%s: %s\n", name.c_str(), capture.error().to_string().c_str());
     return 1;
   }
+  const SweepSettings& taken = capture->settings;
   const Result<SweepGeometry> geometry =
-      fit_geometry(capture->lights, expected_centre(capture->settings.width / 2, capture->settings.height / 2));
+      fit_geometry(capture->lights, expected_centre(taken.width / 2, taken.height / 2));
   if (!geometry) return 1;
-  const double light = capture->settings.light_rate / 4.0;  // over pixels of half the raw size
-  FlareSweep sweep;
-  for (const double angle : capture->settings.angles_deg) sweep.angles_rad.push_back(angle * 0.017453292519943295);
-  sweep.light = {light, light, light};
-  sweep.direct = capture->direct;
-  sweep.picture = [&](std::size_t k) -> Result<CapturedImage> { return capture->pictures[k]; };
+  const double light = taken.light_rate / 4.0;  // over pixels of half the raw size
   const double start = seconds_now();
-  const Result<FittedFlare> fit = fit_flare(sweep, *geometry);
+  FlareFitOptions options;
+  options.pictures = settings.pictures.empty() ? 0 : 8;
+  const Result<FittedFlare> fit = fit_flare(sweep_of(*capture, light), *geometry, options);
   if (!fit) {
     std::printf("%s: %s\n", name.c_str(), fit.error().to_string().c_str());
     return 1;
   }
-  const Vec2 centre{0.25 * capture->settings.width + 0.5 * capture->settings.centre_offset_px.x,
-                    0.25 * capture->settings.height + 0.5 * capture->settings.centre_offset_px.y};
+  const Vec2 centre = Vec2{0.25 * taken.width, 0.25 * taken.height} + taken.centre_offset_px * 0.5;
   std::printf(
-      "%s, %d stations, %d px: %.0f s, %zu ghosts, %.0f image evaluations, NRMSE %.3f, held out %.3f, centre off by "
-      "%.2f, %.2f px"
-      " (from the light alone %.2f)\n",
-      name.c_str(), stations, capture->pictures[0].rate.width, seconds_now() - start, fit->flare.ghosts.size(),
-      fit->image_evaluations, fit->nrmse, fit->held_out_nrmse, fit->centre_px.x - centre.x, fit->centre_px.y - centre.y,
-      geometry->centre_px.x - centre.x);
-  const Image& first = capture->pictures[0].rate;
-  const Comparison at = comparison_of(lens, first.width, first.height, fit->flare.s_max);
-  print_ghosts(true_ghosts(lens, at), fitted_ghosts(fit->flare, at));
+      "%s, %d stations, %d px: %.0f s, %zu ghosts, %.0f image evaluations, NRMSE %.3f, held out %.3f, flux %.3f, "
+      "centre "
+      "off by %.2f, %.2f px (from the light alone %.2f)\n",
+      name.c_str(), settings.stations, capture->pictures[0].rate.width, seconds_now() - start, fit->flare.ghosts.size(),
+      fit->image_evaluations, fit->nrmse, fit->held_out_nrmse, flux_error(*fit), fit->centre_px.x - centre.x,
+      fit->centre_px.y - centre.y, geometry->centre_px.x - centre.x);
+  if (!settings.pictures.empty()) {
+    write_pictures(*fit, settings.pictures, name);
+    MeasuredFlare named = fit->flare;
+    named.name = name;
+    std::ofstream(settings.pictures + "/" + name + ".flare.toml") << write_flare(named);
+  }
+  const Comparison at = comparison_of(lens, *capture, light);
+  print_ghosts(true_ghosts(drawn_ghosts(lens, at.frame, at.s, kept), at), fit->flare, at);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int stations = argc > 2 ? std::stoi(argv[2]) : 61, raw_width = argc > 3 ? std::stoi(argv[3]) : 1200;
-  if (argc > 1) return run(argv[1], stations, raw_width);
+  Run settings;
+  if (argc > 2) settings.stations = std::stoi(argv[2]);
+  if (argc > 3) settings.raw_width = std::stoi(argv[3]);
+  if (argc > 4) settings.kept = argv[4];
+  if (argc > 5) settings.pictures = argv[5];
+  if (argc > 1) return run(argv[1], settings);
   int failed = 0;
   for (const char* lens : {"heliar", "tessar", "planar-50", "distagon-25", "nikon-80-200"})
-    failed += run(lens, stations, raw_width);
+    failed += run(lens, settings);
   return failed;
 }

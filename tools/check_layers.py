@@ -100,6 +100,7 @@ PUBLIC = {
     "expert/flare_layers.h": "render/planning",
     "expert/picture_layers.h": "compositing",
     "expert/ghost_outline.h": "measure",
+    "expert/ghost_profile.h": "measure",
     "expert/animation.h": "sequence",
     "expert/frame_pattern.h": "sequence",
     "expert/frame_range.h": "sequence",

@@ -118,6 +118,13 @@ LineChart station_chart(const FittedFlare& fit, bool of_flux) {
   return chart;
 }
 
+// The mean level inside a ghost, with its profile.
+double green_inside(const MeasuredGhost& ghost, double s) {
+  double level = ghost.inside[1](s);
+  for (std::size_t k = 0; k < ghost.profile[1].size(); ++k) level += profile_mean(k) * ghost.profile[1][k](s);
+  return std::max(level, 0.0);
+}
+
 LineChart convergence_chart(const FittedFlare& fit) {
   LineChart chart{"The last fit of all ghosts: cost over pictures evaluated", "pictures evaluated", "cost", {{}}};
   for (const FitProgress& p : fit.progress) chart.curves[0].points.push_back({p.image_evaluations, p.cost});
@@ -136,8 +143,7 @@ std::string charts_html(const FittedFlare& fit) {
                                    [](const auto& g, double s) { return g.half_height(s); }));
     html += line_chart(ghost_chart(fit, "Half width, as a tangent", "half width",
                                    [](const auto& g, double s) { return g.half_width(s); }));
-    LineChart levels = ghost_chart(fit, "Level inside, green", "level",
-                                   [](const auto& g, double s) { return std::max(g.inside[1](s), 0.0); });
+    LineChart levels = ghost_chart(fit, "Mean level inside, green", "level", green_inside);
     levels.log_y = true;
     html += line_chart(levels);
   }

@@ -50,4 +50,19 @@ inline MeasuredGhost random_ghost(std::mt19937& random) {
   return ghost;
 }
 
+// The same with a profile inside, which changes with the angle and is nowhere below 0.
+inline MeasuredGhost random_ghost_with_profile(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  MeasuredGhost ghost = random_ghost(random);
+  for (std::vector<AngleCurve>& terms : ghost.profile) {
+    for (std::size_t k = 0; k < kProfileTerms; ++k) {
+      const bool plain = profile_term(k).harmonic == 0;
+      const Parity parity = profile_term(k).harmonic == 1 ? Parity::Odd : Parity::Even;
+      const double size = plain ? 0.8 + unit(random) : 0.3 * unit(random);
+      terms.push_back({parity, {size, 0.5 * unit(random)}});
+    }
+  }
+  return ghost;
+}
+
 }  // namespace contrejour::test

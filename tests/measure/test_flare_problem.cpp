@@ -5,25 +5,29 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/measured_flare.h"
+#include "measure/fit/amplitudes.h"
 #include "measure/fit/flare_problem.h"
 #include "measure/random_ghosts.h"
 
 using namespace contrejour;
 using contrejour::test::random_ghost;
+using contrejour::test::random_ghost_with_profile;
 
 namespace {
 
-MeasuredFlare planted(int ghosts, unsigned seed) {
+MeasuredFlare planted(int ghosts, unsigned seed, bool with_profiles = false) {
   std::mt19937 random(seed);
   MeasuredFlare flare{"planted", "", 0.5, std::nullopt, {}};
   for (int k = 0; k < ghosts; ++k) {
-    MeasuredGhost ghost = random_ghost(random);
+    MeasuredGhost ghost = with_profiles ? random_ghost_with_profile(random) : random_ghost(random);
     ghost.last = 0.5;
     ghost.width_in.coefficients[0] += 0.005;  // at least a pixel of these small pictures
     ghost.width_out.coefficients[0] += 0.005;
     for (std::size_t c = 0; c < 3; ++c) {
       ghost.border[c].coefficients[0] *= 1e6;
       ghost.inside[c].coefficients[0] *= 1e6;
+      for (AngleCurve& term : ghost.profile[c])
+        for (double& coefficient : term.coefficients) coefficient *= 1e6;
     }
     flare.ghosts.push_back(std::move(ghost));
   }
@@ -55,14 +59,17 @@ std::vector<FitStation> stations_of(const MeasuredFlare& flare, int count, doubl
 }  // namespace
 
 TEST_CASE("flare problem: gradients agree with central differences to 1e-5") {
-  const MeasuredFlare flare = planted(2, 2);
-  const auto stations = stations_of(planted(2, 2), 3, 1.0, true);
-  for (const double huber : {1e9, 2.0}) {
+  for (const auto& [huber, with_profiles] : {std::pair{1e9, false}, {2.0, false}, {1e9, true}}) {
+    const MeasuredFlare flare = planted(2, 2, with_profiles);
+    const auto stations = stations_of(flare, 3, 1.0, true);
     FlareProblem problem(stations, flare);
     problem.huber = huber;
-    problem.with_centre = true;
-    Eigen::VectorXd at(problem.layout.size() + 1);
-    at << problem.layout.pack(flare), 0.004;
+    problem.with_centre = !with_profiles;  // a profile's own change with the angle is left out of the centre's
+    Eigen::VectorXd at = problem.layout.pack(flare);
+    if (problem.with_centre) {
+      at.conservativeResize(at.size() + 1);
+      at[at.size() - 1] = 0.004;
+    }
     for (Eigen::Index k = 0; k < at.size(); ++k) at[k] *= 1.0 + 0.01 * std::sin(static_cast<double>(k));
     const NormalEquations equations = problem.equations(at);
     CHECK(equations.cost == doctest::Approx(problem.cost(at)).epsilon(1e-12));
@@ -101,6 +108,37 @@ TEST_CASE("flare problem: a planted flare is found from a start beside it [slow]
     CHECK(found.ghosts[k].centre(0.4) == doctest::Approx(truth.ghosts[k].centre(0.4)).epsilon(0.005));
     CHECK(found.ghosts[k].half_height(0.1) == doctest::Approx(truth.ghosts[k].half_height(0.1)).epsilon(0.01));
   }
+}
+
+TEST_CASE("amplitudes: the levels of given outlines are found from any start, and none is below 0") {
+  const MeasuredFlare truth = planted(3, 4, true);
+  const auto stations = stations_of(truth, 8, 0.5, true);
+  MeasuredFlare start = truth;
+  for (MeasuredGhost& ghost : start.ghosts) {
+    ghost.profile.fill({});
+    for (AngleCurve& level : ghost.border) level.coefficients = {1.0};
+  }
+  AmplitudeSettings settings;
+  settings.smoothness = 1e-6;
+  settings.huber = 1e9;
+  const MeasuredFlare found = with_best_amplitudes(stations, start, settings, {});
+  const FlareLight light{{0.31, 0.0}, {1.0, 1.0, 1.0}};  // at none of the stations
+  const Image a = *render_measured(truth, std::span(&light, 1), stations[0].frame.pixels);
+  const Image b = *render_measured(found, std::span(&light, 1), stations[0].frame.pixels);
+  double left = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    left += std::pow(static_cast<double>(a.pixels[k]) - static_cast<double>(b.pixels[k]), 2);
+    all += std::pow(static_cast<double>(a.pixels[k]), 2);
+  }
+  CHECK(std::sqrt(left / all) < 0.03);
+  for (const MeasuredGhost& ghost : found.ghosts) {
+    CHECK(ghost.profile[0].size() == kProfileTerms);
+    for (const FitStation& station : stations)
+      for (const AngleCurve& level : ghost.border) CHECK(level(station.s) > -1e3);  // of 1e6
+  }
+  settings.profile_coefficients = 0;
+  for (const MeasuredGhost& ghost : with_best_amplitudes(stations, start, settings, {}).ghosts)
+    CHECK(ghost.profile[0].empty());
 }
 
 TEST_CASE("flare problem: the same bits for any number of threads") {

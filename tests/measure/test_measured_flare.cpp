@@ -12,6 +12,7 @@
 
 using namespace contrejour;
 using contrejour::test::random_ghost;
+using contrejour::test::random_ghost_with_profile;
 
 namespace {
 
@@ -19,6 +20,15 @@ MeasuredFlare random_flare(int ghosts, unsigned seed = 1) {
   std::mt19937 random(seed);
   MeasuredFlare flare{"test", "random", 0.6, CaptureExposure{1.4, 100.0, 1.0}, {}};
   for (int k = 0; k < ghosts; ++k) flare.ghosts.push_back(random_ghost(random));
+  return flare;
+}
+
+// Every second ghost with a profile.
+MeasuredFlare random_flare_with_profiles(int ghosts) {
+  std::mt19937 random(3);
+  MeasuredFlare flare = random_flare(0);
+  for (int k = 0; k < ghosts; ++k)
+    flare.ghosts.push_back(k % 2 == 0 ? random_ghost_with_profile(random) : random_ghost(random));
   return flare;
 }
 
@@ -35,10 +45,11 @@ Image plain_picture(const MeasuredFlare& flare, const FlareLight& light, const T
     for (int y = 0; y < frame.height; ++y) {
       for (int x = 0; x < frame.width; ++x) {
         const Vec2 point{(x + 0.5 - frame.centre_px.x) * pixel, (frame.centre_px.y - y - 0.5) * pixel};
-        const double distance = nearest_point(at->outline, {dot(along, point), cross(along, point)}).distance;
-        const ShadeWeights weights = shade_weights(at->shade, distance, pixel);
+        const Vec2 turned{dot(along, point), cross(along, point)};
+        const ShadeWeights weights = shade_weights(at->shade, nearest_point(at->outline, turned).distance, pixel);
+        const Rgb inside = at->inside_at(turned);
         for (std::size_t c = 0; c < 3; ++c) {
-          const double level = at->border[c] * weights.border + at->inside[c] * weights.inside;
+          const double level = at->border[c] * weights.border + inside[c] * weights.inside;
           image.at(x, y, static_cast<int>(c)) += static_cast<float>(light.value[c] * level * pixel * pixel);
         }
       }
@@ -78,6 +89,44 @@ TEST_CASE("measured flare: a file reads back bit for bit") {
   CHECK(again->ghosts.size() == 7);
   CHECK(again->exposure->f_number == 1.4);
   CHECK(again->half_field->x == 0.75);
+}
+
+TEST_CASE("measured flare: profiles are kept, drawn and checked") {
+  const MeasuredFlare flare = random_flare_with_profiles(5);
+  const std::string text = write_flare(flare);
+  const auto again = read_flare(text, "a.flare.toml");
+  REQUIRE_MESSAGE(again.has_value(), again.error().to_string());
+  CHECK(write_flare(*again) == text);
+  for (const Vec2 position : {Vec2{0.3, 0.0}, Vec2{-0.2, 0.25}}) {
+    const FlareLight light{position, {1e5, 2e5, 5e4}};
+    const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+    REQUIRE(image.has_value());
+    const Image plain = plain_picture(flare, light, kFrame);
+    CHECK(largest_difference(*image, plain) < 2e-3 * largest(plain));
+  }
+  MeasuredFlare broken = flare;
+  broken.ghosts[0].profile[1].pop_back();
+  CHECK(!check_flare(broken));
+  const auto refused = read_flare("name = \"n\"\ns_max = 0.5\n[[ghosts]]\nlast = 0.4\nprofile_red = [[1]]\n", "a.toml");
+  REQUIRE(!refused);
+  CHECK(refused.error().to_string().find("a.toml:5:") == 0);
+}
+
+TEST_CASE("measured flare: a ghost that has shrunk to nothing is not drawn, a slim one has no light beside it") {
+  MeasuredGhost ghost;
+  ghost.half_width.coefficients = {0.1};
+  ghost.half_height.coefficients = {0.1, -0.5};  // 0 at s = 0.447
+  for (AngleCurve& level : ghost.inside) level.coefficients = {1.0};
+  ghost.last = 0.5;
+  CHECK(!ghost_at(ghost, 0.48, 0.5));
+  ghost.half_height.coefficients = {1e-6};
+  const MeasuredFlare flare{"slim", "", 0.5, std::nullopt, {ghost}};
+  const FlareLight light{{0.3, 0.01}, {1e6, 1e6, 1e6}};
+  const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+  REQUIRE(image.has_value());
+  // Its pixels are half covered at most, and lie in a row of the ghost's width, 44 pixels.
+  CHECK(largest(*image) < 0.6 * 1e6 / (kFrame.focal_length_px * kFrame.focal_length_px));
+  CHECK(std::ranges::count_if(image->pixels, [](float v) { return v > 0.0F; }) < 3 * 3 * 48);
 }
 
 TEST_CASE("measured flare: errors name file and line") {

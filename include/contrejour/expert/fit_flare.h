@@ -82,8 +82,9 @@ struct FittedFlare {
   MeasuredFlare flare;
   // Optical centre of the pictures: the ghosts determine it better than the light's images do.
   Vec2 centre_px;
-  // The start of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil").
-  // Small ghosts come last.
+  // The start of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil"),
+  // and its last ones without an edge, which stand for ghosts that are not found ("diffuse, ..."). Small ghosts come
+  // last of those that are found.
   std::vector<FoundGhost> found;
   std::vector<FitProgress> progress;  // of the last fit
   double image_evaluations = 0;  // in all

@@ -21,6 +21,7 @@
 #include "contrejour/context.h"
 #include "contrejour/expert/colour.h"
 #include "contrejour/expert/ghost_outline.h"
+#include "contrejour/expert/ghost_profile.h"
 #include "contrejour/export.h"
 #include "contrejour/image.h"
 #include "contrejour/result.h"
@@ -52,6 +53,9 @@ struct MeasuredGhost {
   AngleCurve width_in, width_out;
   AngleCurve slope_in{Parity::Even, {1.0}}, slope_out{Parity::Even, {1.0}};
   std::array<AngleCurve, 3> border, inside;  // levels of the channels
+  // What is added to the inside's level at each place (ghost_profile.h): kProfileTerms curves of each channel, or none.
+  // Those of cos(phi) are odd, the others even. Their sum with the inside's level is not below 0.
+  std::array<std::vector<AngleCurve>, 3> profile;
 
   // It is there for |s| from first to last, and fades within `transition` of either end (unless that end is the axis or
   // the end of the measured range, which have no transition).
@@ -85,6 +89,12 @@ struct GhostAtAngle {
   GhostOutline outline;
   GhostShade shade;
   Rgb border{}, inside{};
+  double presence = 1;  // by which all levels are multiplied already: below 1 at the ends of its range
+  bool has_profile = false;
+  std::array<Rgb, kProfileTerms> profile{};  // added to `inside`
+
+  // The level that the inside's weight multiplies at a point, not below 0.
+  [[nodiscard]] CONTREJOUR_API Rgb inside_at(Vec2 point) const;
 };
 [[nodiscard]] CONTREJOUR_API std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, double s_max);
 

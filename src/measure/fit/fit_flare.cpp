@@ -11,6 +11,7 @@
 #include "measure/find/find_ghosts.h"
 #include "measure/fit/flare_fit_state.h"
 #include "measure/fit/ghost_start.h"
+#include "measure/fit/profiles.h"
 #include "measure/fit/small_ghosts.h"
 #include "measure/fit/station_figures.h"
 
@@ -220,6 +221,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   fit_together(fit, fit.fine_samples, options.huber, kLastIterations);
   finish_small_ghosts(fit);
   add_small_ghosts(fit);
+  fit_profiles(fit);
   if (context.cancelled()) return interrupted();
   const TangentFrame& frame = fit.fine.front().frame.pixels;
   fit.flare().half_field = {0.5 * frame.width / frame.focal_length_px, 0.5 * frame.height / frame.focal_length_px};

@@ -17,7 +17,6 @@ constexpr auto kCurves = static_cast<Eigen::Index>(kGhostCurves);
 struct GhostInStation {
   std::size_t index = 0;  // of the flare's ghosts
   GhostAtAngle at;
-  double presence = 1.0;  // by which levels are multiplied: at the ends of a ghost's range
   GhostPixels pixels;
 };
 
@@ -37,21 +36,12 @@ StationPlace position_of(const FitStation& station, double centre_shift) {
   return place;
 }
 
-double presence_of(const MeasuredGhost& ghost, const GhostAtAngle& at, double s) {
-  for (std::size_t c = 0; c < kChannels; ++c) {
-    if (at.border[c] > 0.0) return at.border[c] / ghost.border[c](s);
-    if (at.inside[c] > 0.0) return at.inside[c] / ghost.inside[c](s);
-  }
-  return 1.0;
-}
-
 std::vector<GhostInStation> ghosts_in(const MeasuredFlare& flare, const StationPlace& station, bool with_derivatives) {
   std::vector<GhostInStation> ghosts;
   for (std::size_t k = 0; k < flare.ghosts.size(); ++k) {
     const auto at = ghost_at(flare.ghosts[k], station.s, flare.s_max);
     if (!at) continue;
-    ghosts.push_back(
-        {k, *at, presence_of(flare.ghosts[k], *at, station.s), ghost_pixels(*at, station.frame, with_derivatives)});
+    ghosts.push_back({k, *at, ghost_pixels(*at, station.frame, with_derivatives)});
   }
   return ghosts;
 }
@@ -68,7 +58,7 @@ std::vector<double> model_of(const std::vector<GhostInStation>& ghosts, const Fi
   for (const GhostInStation& ghost : ghosts) {
     for (const GhostPixel& pixel : ghost.pixels.near_border) {
       for (std::size_t c = 0; c < kChannels; ++c) {
-        const double level = ghost.at.border[c] * pixel.weights.border + ghost.at.inside[c] * pixel.weights.inside;
+        const double level = ghost.at.border[c] * pixel.weights.border + pixel.inside[c] * pixel.weights.inside;
         model[kChannels * pixel.index + c] += area * level;
       }
     }
@@ -106,12 +96,15 @@ using CurveGradient = Eigen::Matrix<double, kCurves, 1>;
 CurveGradient gradient_of(const GhostInStation& ghost, const GhostPixel& pixel, std::size_t channel, double area) {
   CurveGradient gradient = CurveGradient::Zero();
   for (std::size_t k = 0; k < kShapeCurves; ++k) {
-    gradient[static_cast<Eigen::Index>(k)] = area * (ghost.at.border[channel] * pixel.by_shape[k].border +
-                                                     ghost.at.inside[channel] * pixel.by_shape[k].inside);
+    gradient[static_cast<Eigen::Index>(k)] =
+        area * (ghost.at.border[channel] * pixel.by_shape[k].border + pixel.inside[channel] * pixel.by_shape[k].inside);
   }
-  gradient[static_cast<Eigen::Index>(kShapeCurves + channel)] = area * ghost.presence * pixel.weights.border;
+  for (std::size_t k = 0; k < kPlaceCurves; ++k) {
+    gradient[static_cast<Eigen::Index>(k)] += area * pixel.weights.inside * pixel.inside_by_shape[k][channel];
+  }
+  gradient[static_cast<Eigen::Index>(kShapeCurves + channel)] = area * ghost.at.presence * pixel.weights.border;
   gradient[static_cast<Eigen::Index>(kShapeCurves + kChannels + channel)] =
-      area * ghost.presence * pixel.weights.inside;
+      area * ghost.at.presence * pixel.weights.inside;
   return gradient;
 }
 
@@ -148,7 +141,7 @@ PixelTerm term_of(const std::vector<GhostInStation>& ghosts, const GhostAtPixel&
   term.first = kCurves * static_cast<Eigen::Index>(at.ghost);
   term.inside = term.first + static_cast<Eigen::Index>(kShapeCurves + kChannels + channel);
   term.flat = at.near_border == nullptr;
-  term.by_inside = area * ghost.presence;
+  term.by_inside = area * ghost.at.presence;
   if (!term.flat) term.gradient = gradient_of(ghost, *at.near_border, channel, area);
   return term;
 }

@@ -40,6 +40,28 @@ std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, co
   return by_shape;
 }
 
+// A pixel of a ghost with a profile: the level there, and how it changes as the ghost moves and grows.
+void add_profile(const GhostAtAngle& ghost, Vec2 point, bool with_derivatives, GhostPixel& pixel) {
+  pixel.inside = ghost.inside_at(point);
+  if (!with_derivatives) return;
+  const ProfileWeights weights = profile_weights(ghost.outline, point);
+  const GhostOutline& o = ghost.outline;
+  const bool is_left = point.x < o.centre;
+  const double side = is_left ? o.left : o.right;
+  const double x = (point.x - o.centre) / side, y = point.y / o.half_height;
+  for (std::size_t c = 0; c < pixel.inside.size(); ++c) {
+    Vec2 by_place{};
+    for (std::size_t k = 0; k < weights.term.size(); ++k)
+      by_place = by_place + weights.by_place[k] * ghost.profile[weights.term[k]][c];
+    if (pixel.inside[c] == 0.0) by_place = {};  // held at 0
+    const double by_side = -by_place.x * x / side;
+    pixel.inside_by_shape[0][c] = -by_place.x / side;
+    pixel.inside_by_shape[1][c] = by_side;
+    pixel.inside_by_shape[2][c] = is_left ? -by_side : by_side;
+    pixel.inside_by_shape[3][c] = -by_place.y * y / o.half_height;
+  }
+}
+
 // A ghost in a station's pixels.
 struct PlacedShape {
   const GhostAtAngle& ghost;
@@ -66,7 +88,7 @@ void add_block(const PlacedShape& shape, PixelRange columns, PixelRange rows, bo
   const double radius = shape.pixel * std::hypot(half_width, half_height);
   const double middle = shape.nearest(columns.first + half_width, rows.first + half_height).distance;
   if (middle > shape.reach_out + radius) return;
-  const bool all_flat = middle < -(shape.reach_in + radius);
+  const bool all_flat = !shape.ghost.has_profile && middle < -(shape.reach_in + radius);
   for (int y = rows.first; y < rows.last; ++y) {
     for (int x = columns.first; x < columns.last; ++x) {
       if (!shape.frame.is_sampled(x, y)) continue;
@@ -76,18 +98,32 @@ void add_block(const PlacedShape& shape, PixelRange columns, PixelRange rows, bo
       }
       const OutlinePoint nearest = shape.nearest(x + 0.5, y + 0.5);
       if (nearest.distance > shape.reach_out) continue;
-      if (nearest.distance < -shape.reach_in) {
+      if (nearest.distance < -shape.reach_in && !shape.ghost.has_profile) {
         pixels.flat.push_back(shape.index(x, y));
         continue;
       }
-      pixels.near_border.push_back(
-          {shape.index(x, y), shade_weights(shape.ghost.shade, nearest.distance, shape.pixel), {}});
+      pixels.near_border.push_back({shape.index(x, y),
+                                    shade_weights(shape.ghost.shade, nearest.distance, shape.pixel),
+                                    {},
+                                    shape.ghost.inside,
+                                    {}});
+      if (shape.ghost.has_profile) {
+        add_profile(shape.ghost, point_of(shape.frame, shape.index(x, y)), with_derivatives, pixels.near_border.back());
+      }
       if (with_derivatives) pixels.near_border.back().by_shape = by_shape_of(shape.ghost, nearest, shape.pixel);
     }
   }
 }
 
 }  // namespace
+
+Vec2 point_of(const StationFrame& frame, std::uint32_t index) {
+  const auto width = static_cast<std::uint32_t>(frame.pixels.width);
+  const Vec2 middle{index % width + 0.5, index / width + 0.5};
+  const Vec2 offset = (middle - frame.pixels.centre_px) * (1.0 / frame.pixels.focal_length_px);
+  const Vec2 along{frame.to_light.x, -frame.to_light.y};
+  return {dot(offset, along), cross(along, offset)};
+}
 
 GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, bool with_derivatives) {
   const double scale = frame.pixels.focal_length_px, pixel = 1.0 / scale;

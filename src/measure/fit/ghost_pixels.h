@@ -13,6 +13,8 @@ namespace contrejour::inline internal {
 
 inline constexpr std::size_t kShapeCurves = 10;  // of curves_of(): all but the levels
 
+inline constexpr std::size_t kPlaceCurves = 4;   // of these, those on which a point's place in a ghost depends
+
 // A station's pixels around the optical axis. The ghosts' x axis points to the light.
 struct StationFrame {
   TangentFrame pixels;
@@ -27,13 +29,19 @@ struct GhostPixel {
   std::uint32_t index = 0;  // y * width + x
   ShadeWeights weights;
   std::array<ShadeWeights, kShapeCurves> by_shape;  // derivatives with respect to the values of curves 0..9
+  Rgb inside{};  // the level that the inside's weight multiplies: the ghost's, with its profile
+  std::array<Rgb, kPlaceCurves> inside_by_shape{};  // derivatives with respect to the values of curves 0..3
 };
 
-// Most pixels of a ghost lie where its shade is the inside's level alone, and depend on no shape parameter.
+// Most pixels of a ghost without a profile lie where its shade is the inside's level alone, and depend on no shape
+// parameter. A ghost with a profile has no such pixels.
 struct GhostPixels {
   std::vector<GhostPixel> near_border;
   std::vector<std::uint32_t> flat;  // indices
 };
+
+// The point at a pixel's middle, in the coordinates of outlines.
+[[nodiscard]] Vec2 point_of(const StationFrame& frame, std::uint32_t index);
 
 [[nodiscard]] GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, bool with_derivatives);
 

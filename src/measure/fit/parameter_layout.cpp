@@ -6,12 +6,6 @@
 namespace contrejour::inline internal {
 namespace {
 
-// The power of s that the k-th coefficient multiplies.
-int power_of(Parity parity, std::size_t k) {
-  const int n = static_cast<int>(k);
-  return parity == Parity::None ? n : parity == Parity::Even ? 2 * n : 2 * n + 1;
-}
-
 constexpr double kNone = 1e300;
 constexpr double kMinSize = 1e-5;   // of half axes and widths, as tangents: far below a pixel
 constexpr double kLowestSlope = 0.2, kHighestSlope = 12.0;

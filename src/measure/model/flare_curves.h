@@ -28,4 +28,15 @@ inline constexpr std::array<std::string_view, kGhostCurves> kCurveNames{
           &g.border[2], &g.inside[0],  &g.inside[1], &g.inside[2]};
 }
 
+// The parity of a profile's term, as the lens's symmetry demands.
+[[nodiscard]] constexpr Parity profile_parity(std::size_t term) {
+  return profile_term(term).harmonic % 2 == 1 ? Parity::Odd : Parity::Even;
+}
+
+// The power of s that the k-th coefficient of a curve multiplies.
+[[nodiscard]] constexpr int power_of(Parity parity, std::size_t k) {
+  const int n = static_cast<int>(k);
+  return parity == Parity::None ? n : parity == Parity::Even ? 2 * n : 2 * n + 1;
+}
+
 }  // namespace contrejour::inline internal

@@ -15,6 +15,7 @@ constexpr std::string_view kPage = "docs/formats/measured-flare.md";
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 24U;
 constexpr std::size_t kMaxGhosts = 10000;
 constexpr std::size_t kMaxCoefficients = 32;
+constexpr std::array<std::string_view, 3> kProfileNames{"profile_red", "profile_green", "profile_blue"};
 constexpr NumberRange kTangent{0.0, 1000.0};
 constexpr NumberRange kAny{-1e30, 1e30};
 constexpr NumberRange kPositive{1e-9, 1e9};
@@ -39,13 +40,26 @@ void read_curve(std::string_view name, TomlFields& fields, TomlErrors& errors, A
   read_coefficients(*list, name, inner, curve);
 }
 
+// A list of kProfileTerms lists.
+void read_profile(std::string_view name, TomlFields& fields, std::vector<AngleCurve>& terms) {
+  const toml::array* lists = fields.array(name);
+  if (lists == nullptr) return;
+  if (lists->size() != kProfileTerms) return fields.fail(*lists, fmt::format("{}: give {} lists", name, kProfileTerms));
+  for (const toml::node& node : *lists) {
+    const toml::array* list = node.as_array();
+    if (list == nullptr) return fields.fail(node, fmt::format("{}: give lists of coefficients", name));
+    terms.push_back({profile_parity(terms.size()), {}});
+    read_coefficients(*list, name, fields, terms.back());
+  }
+}
+
 MeasuredGhost read_ghost(const toml::table& table, std::size_t index, TomlErrors& errors) {
-  TomlFields fields(
-      table, fmt::format("ghost {}", index + 1),
-      {"name",        "first",        "last",           "transition", "centre",       "half_width", "skew",
-       "half_height", "roundness",    "roundness_skew", "width_in",   "width_out",    "slope_in",   "slope_out",
-       "border_red",  "border_green", "border_blue",    "inside_red", "inside_green", "inside_blue"},
-      errors);
+  TomlFields fields(table, fmt::format("ghost {}", index + 1),
+                    {"name",         "first",       "last",        "transition",     "centre",      "half_width",
+                     "skew",         "half_height", "roundness",   "roundness_skew", "width_in",    "width_out",
+                     "slope_in",     "slope_out",   "border_red",  "border_green",   "border_blue", "inside_red",
+                     "inside_green", "inside_blue", "profile_red", "profile_green",  "profile_blue"},
+                    errors);
   MeasuredGhost ghost;
   ghost.name = fields.text("name").value_or(fmt::format("{}", index + 1));
   ghost.first = fields.number("first", kTangent).value_or(0.0);
@@ -53,6 +67,7 @@ MeasuredGhost read_ghost(const toml::table& table, std::size_t index, TomlErrors
   ghost.transition = fields.number("transition", kTangent).value_or(0.0);
   const auto curves = curves_of(ghost);
   for (std::size_t k = 0; k < kGhostCurves; ++k) read_curve(kCurveNames[k], fields, errors, *curves[k]);
+  for (std::size_t c = 0; c < kProfileNames.size(); ++c) read_profile(kProfileNames[c], fields, ghost.profile[c]);
   return ghost;
 }
 
@@ -99,6 +114,11 @@ std::string ghost_text(const MeasuredGhost& ghost) {
   const auto curves = curves_of(ghost);
   for (std::size_t k = 0; k < kGhostCurves; ++k)
     text += fmt::format("{} = {}\n", kCurveNames[k], curve_text(*curves[k]));
+  for (std::size_t c = 0; c < kProfileNames.size(); ++c) {
+    std::string lists;
+    for (const AngleCurve& term : ghost.profile[c]) lists += (lists.empty() ? "" : ", ") + curve_text(term);
+    if (!lists.empty()) text += fmt::format("{} = [{}]\n", kProfileNames[c], lists);
+  }
   return text;
 }
 

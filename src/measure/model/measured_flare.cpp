@@ -50,6 +50,15 @@ Result<void> check_ghost(const MeasuredGhost& ghost, double s_max) {
           fmt::format("ghost \"{}\": a coefficient is not finite, or the curve exceeds {:g}", ghost.name, kMaxCurve));
     }
   }
+  for (const std::vector<AngleCurve>& terms : ghost.profile) {
+    const bool bounded =
+        std::ranges::all_of(terms, [&](const AngleCurve& curve) { return bound_of(curve, s_max) <= kMaxCurve; });
+    if (!bounded || (!terms.empty() && terms.size() != kProfileTerms) || terms.size() != ghost.profile[0].size()) {
+      return invalid_argument(
+          fmt::format("ghost \"{}\": a profile has {} curves of each channel, which do not exceed {:g}", ghost.name,
+                      kProfileTerms, kMaxCurve));
+    }
+  }
   if (!(ghost.first >= 0.0 && ghost.first < ghost.last && ghost.last <= s_max && ghost.transition >= 0.0)) {
     return invalid_argument(
         fmt::format("ghost \"{}\": it must be visible from first >= 0 to a larger last, no farther than s_max = {:g}",
@@ -93,13 +102,14 @@ Result<void> check_flare(const MeasuredFlare& flare) {
 std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, double s_max) {
   const double level = presence(ghost, s, s_max);
   if (level <= 0.0) return std::nullopt;
-  const double width = ghost.half_width(s), skew = ghost.skew(s);
+  const double width = ghost.half_width(s), skew = ghost.skew(s), height = ghost.half_height(s);
+  if (!(width > kMinHalfAxis && height > kMinHalfAxis)) return std::nullopt;  // it has shrunk to nothing
   const double roundness = ghost.roundness(s), roundness_skew = ghost.roundness_skew(s);
   GhostAtAngle at;
   at.outline = {ghost.centre(s),
                 std::max(width - skew, kMinHalfAxis),
                 std::max(width + skew, kMinHalfAxis),
-                std::max(ghost.half_height(s), kMinHalfAxis),
+                height,
                 std::clamp(roundness - roundness_skew, kMinRoundness, kMaxRoundness),
                 std::clamp(roundness + roundness_skew, kMinRoundness, kMaxRoundness)};
   const double slope_in = std::clamp(ghost.slope_in(s), kMinSlope, kMaxSlope);
@@ -110,7 +120,23 @@ std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, doubl
     at.border[c] = level * std::max(ghost.border[c](s), 0.0);
     at.inside[c] = level * std::max(ghost.inside[c](s), 0.0);
   }
+  at.presence = level;
+  at.has_profile = !ghost.profile[0].empty();
+  for (std::size_t k = 0; k < kProfileTerms && at.has_profile; ++k) {
+    for (std::size_t c = 0; c < at.inside.size(); ++c) at.profile[k][c] = level * ghost.profile[c][k](s);
+  }
   return at;
+}
+
+Rgb GhostAtAngle::inside_at(Vec2 point) const {
+  Rgb level = inside;
+  if (!has_profile) return level;
+  const ProfileWeights weights = profile_weights(outline, point);
+  for (std::size_t c = 0; c < level.size(); ++c) {
+    for (std::size_t k = 0; k < weights.term.size(); ++k) level[c] += weights.value[k] * profile[weights.term[k]][c];
+    level[c] = std::max(level[c], 0.0);
+  }
+  return level;
 }
 
 double brightness_scale(const CaptureExposure& capture, const CaptureExposure& picture, double light_ratio) {

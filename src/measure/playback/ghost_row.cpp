@@ -20,6 +20,7 @@ using One = hn::CappedTag<float, 1>;
 constexpr int kSamples = 5;  // of each cubic
 constexpr int kNewtonSteps = 4;
 constexpr float kMaxStep = 0.2F;       // of t, which samples leave uncertain by 0.1
+constexpr float kCentre = 1e-9F;  // of rho, below which there is no direction
 constexpr float kMinPower = 1e-20F;  // of a base whose logarithm is taken
 
 // One coordinate of a cubic that may differ from lane to lane.
@@ -133,20 +134,57 @@ HWY_INLINE hn::Vec<D> between(D d, float fade, float slope, hn::Vec<D> near, hn:
   return hn::Mul(hn::Set(d, fade / (slope + 1.0F)), hn::Sub(rest(near), rest(far)));
 }
 
+template <class D>
+struct Levels {
+  hn::Vec<D> red, green, blue;
+};
+
+// The levels inside a ghost at packets of points.
+template <class D>
+HWY_INLINE Levels<D> inside_levels(D d, const GhostPacket& g, hn::Vec<D> x, hn::Vec<D> y) {
+  Levels<D> levels{hn::Set(d, g.inside[0]), hn::Set(d, g.inside[1]), hn::Set(d, g.inside[2])};
+  if (!g.has_profile) return levels;
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+  const auto u = hn::Mul(x, hn::IfThenElse(hn::Lt(x, zero), hn::Set(d, g.per_left), hn::Set(d, g.per_right)));
+  const auto v = hn::Mul(y, hn::Set(d, g.per_height));
+  const auto rho = hn::Sqrt(hn::MulAdd(u, u, hn::Mul(v, v)));
+  const auto c1 = hn::Div(u, hn::Max(rho, hn::Set(d, kCentre)));
+  const auto c2 = hn::MulSub(hn::Add(c1, c1), c1, one);
+  const auto at = hn::Mul(hn::Min(rho, one), hn::Set(d, static_cast<float>(kProfileRings - 1)));
+  const auto add = [&](std::size_t c, std::size_t ring, hn::Vec<D> hat, hn::Vec<D> to) HWY_ATTR {
+    const std::array<float, kProfileTerms>& p = g.profile[c];
+    auto level = hn::Set(d, p[profile_index({0, ring})]);
+    if (ring > 0) {
+      level = hn::MulAdd(hn::Set(d, p[profile_index({1, ring})]), c1, level);
+      level = hn::MulAdd(hn::Set(d, p[profile_index({2, ring})]), c2, level);
+    }
+    return hn::MulAdd(hat, level, to);
+  };
+  for (std::size_t ring = 0; ring < kProfileRings; ++ring) {
+    const auto hat = hn::Max(zero, hn::Sub(one, hn::Abs(hn::Sub(at, hn::Set(d, static_cast<float>(ring))))));
+    levels.red = add(0, ring, hat, levels.red);
+    levels.green = add(1, ring, hat, levels.green);
+    levels.blue = add(2, ring, hat, levels.blue);
+  }
+  return {hn::Max(levels.red, zero), hn::Max(levels.green, zero), hn::Max(levels.blue, zero)};
+}
+
 // Adds the levels of pixels with these weights.
 template <class D>
-HWY_INLINE void add_levels(D d, const GhostPacket& g, hn::Vec<D> border, hn::Vec<D> inside, float* rgb) {
+HWY_INLINE void add_levels(D d, const GhostPacket& g, hn::Vec<D> border, hn::Vec<D> inside, const Levels<D>& level,
+                           float* rgb) {
   if constexpr (hn::MaxLanes(D()) == 1) {
+    const std::array<float, 3> inner{hn::GetLane(level.red), hn::GetLane(level.green), hn::GetLane(level.blue)};
     for (std::size_t c = 0; c < 3; ++c) {
-      rgb[c] += g.border[c] * hn::GetLane(border) + g.inside[c] * hn::GetLane(inside);
+      rgb[c] += g.border[c] * hn::GetLane(border) + inner[c] * hn::GetLane(inside);
     }
   } else {
     hn::Vec<D> red, green, blue;
     hn::LoadInterleaved3(d, rgb, red, green, blue);
-    const auto add = [&](hn::Vec<D> to, std::size_t c) HWY_ATTR {
-      return hn::MulAdd(hn::Set(d, g.border[c]), border, hn::MulAdd(hn::Set(d, g.inside[c]), inside, to));
+    const auto add = [&](hn::Vec<D> to, std::size_t c, hn::Vec<D> inner) HWY_ATTR {
+      return hn::MulAdd(hn::Set(d, g.border[c]), border, hn::MulAdd(inner, inside, to));
     };
-    hn::StoreInterleaved3(add(red, 0), add(green, 1), add(blue, 2), d, rgb);
+    hn::StoreInterleaved3(add(red, 0, level.red), add(green, 1, level.green), add(blue, 2, level.blue), d, rgb);
   }
 }
 
@@ -164,7 +202,7 @@ HWY_INLINE void add_packet(D d, const GhostPacket& g, hn::Vec<D> x, hn::Vec<D> y
   if (!hn::AllTrue(d, hn::Le(high, zero))) {
     border = hn::Add(border, between(d, g.fade_out, g.slope_out, hn::Max(low, zero), hn::Max(high, zero)));
   }
-  add_levels(d, g, border, inside, rgb);
+  add_levels(d, g, border, inside, inside_levels(d, g, x, y), rgb);
 }
 
 // Calls act(d, x, y, k) for packets of points, from the k-th on.
@@ -191,6 +229,12 @@ void add_line(const GhostPacket& ghost, const PixelLine& line, std::size_t count
                   [&](auto d, auto x, auto y, std::size_t k) HWY_ATTR { add_packet(d, ghost, x, y, rgb + 3 * k); });
 }
 
+void add_inside_line(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* rgb) {
+  for_each_packet(line, count, [&](auto d, auto x, auto y, std::size_t k) HWY_ATTR {
+    add_levels(d, ghost, hn::Zero(d), hn::Set(d, 1.0F), inside_levels(d, ghost, x, y), rgb + 3 * k);
+  });
+}
+
 }  // namespace contrejour::inline internal::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -199,6 +243,7 @@ namespace contrejour::inline internal {
 
 HWY_EXPORT(distances_of);
 HWY_EXPORT(add_line);
+HWY_EXPORT(add_inside_line);
 
 void ghost_distances(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* distances) {
   HWY_DYNAMIC_DISPATCH(distances_of)(ghost, line, count, distances);
@@ -206,6 +251,10 @@ void ghost_distances(const GhostPacket& ghost, const PixelLine& line, std::size_
 
 void add_ghost(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* rgb) {
   HWY_DYNAMIC_DISPATCH(add_line)(ghost, line, count, rgb);
+}
+
+void add_inside(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* rgb) {
+  HWY_DYNAMIC_DISPATCH(add_inside_line)(ghost, line, count, rgb);
 }
 
 }  // namespace contrejour::inline internal

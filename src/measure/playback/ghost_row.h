@@ -17,6 +17,10 @@ struct GhostPacket {
   std::array<std::array<float, 4>, 2> x{}, y{};  // left and right cubic: coefficients of 1, t, t^2, t^3
   float fade_in = 0, fade_out = 0, slope_in = 1, slope_out = 1;
   std::array<float, 3> border{}, inside{};  // levels of a pixel
+  // What is added to the inside's level (ghost_profile.h), by terms, and the places' scales: 1 / half axis.
+  bool has_profile = false;
+  std::array<std::array<float, kProfileTerms>, 3> profile{};
+  float per_left = 0, per_right = 0, per_height = 0;
 };
 
 // Points of a line across the picture: the first, and the step to the next.
@@ -29,5 +33,7 @@ void ghost_distances(const GhostPacket& ghost, const PixelLine& line, std::size_
 
 // Adds the ghost to `count` pixels of three floats.
 void add_ghost(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* rgb);
+// The same where the inside's weight is 1.
+void add_inside(const GhostPacket& ghost, const PixelLine& line, std::size_t count, float* rgb);
 
 }  // namespace contrejour::inline internal

@@ -18,6 +18,7 @@ namespace {
 constexpr int kBlock = 16;
 constexpr double kMaxPixels = 268435456.0;  // as for other renderers
 constexpr double kBlockRadius = 0.7071067811865476 * kBlock;
+constexpr double kMinHalfAxis_px = 0.02;  // floats leave the sides of a slimmer outline uncertain
 constexpr double kSlack_px = 0.6;        // half a pixel, and the kernel's error
 
 // A ghost of one light in the picture's pixels, y down.
@@ -36,7 +37,8 @@ std::array<float, 4> power_basis(double p0, double p1, double p2, double p3) {
 
 // The outline scaled to pixels and moved to its own origin.
 GhostOutline in_pixels(const GhostOutline& o, double scale) {
-  return {0.0, scale * o.left, scale * o.right, scale * o.half_height, o.round_left, o.round_right};
+  const auto sized = [scale](double half_axis) { return std::max(scale * half_axis, kMinHalfAxis_px); };
+  return {0.0, sized(o.left), sized(o.right), sized(o.half_height), o.round_left, o.round_right};
 }
 
 PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, const TangentFrame& frame) {
@@ -57,6 +59,14 @@ PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, cons
     at.packet.border[c] = static_cast<float>(ghost.border[c] * value[c] * per_pixel);
     at.packet.inside[c] = static_cast<float>(ghost.inside[c] * value[c] * per_pixel);
   }
+  at.packet.has_profile = ghost.has_profile;
+  for (std::size_t k = 0; k < kProfileTerms && ghost.has_profile; ++k) {
+    for (std::size_t c = 0; c < 3; ++c)
+      at.packet.profile[c][k] = static_cast<float>(ghost.profile[k][c] * value[c] * per_pixel);
+  }
+  at.packet.per_left = static_cast<float>(1.0 / outline.left);
+  at.packet.per_right = static_cast<float>(1.0 / outline.right);
+  at.packet.per_height = static_cast<float>(1.0 / outline.half_height);
   at.along = {along.x, -along.y};
   at.origin = frame.centre_px + at.along * (scale * ghost.outline.centre);
   at.band_in = scale * ghost.shade.fade_in + kSlack_px;
@@ -86,7 +96,10 @@ PixelLine line_of(const PlacedGhost& ghost, double x, double y, double step) {
           static_cast<float>(step * ghost.along.x), static_cast<float>(-step * ghost.along.y)};
 }
 
-void fill(const GhostPacket& ghost, std::size_t count, float* rgb) {
+// A row of a block inside the ghost, beyond its border's reach.
+void fill(const PlacedGhost& at, int left, int y, std::size_t count, float* rgb) {
+  const GhostPacket& ghost = at.packet;
+  if (ghost.has_profile) return add_inside(ghost, line_of(at, left + 0.5, y + 0.5, 1.0), count, rgb);
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t c = 0; c < 3; ++c) rgb[3 * k + c] += ghost.inside[c];
   }
@@ -113,7 +126,7 @@ void add_band(const PlacedGhost& ghost, int top, int bottom, Image& image) {
     for (int y = top; y < bottom; ++y) {
       float* rgb = &image.at(left, y);
       if (distance < -(ghost.band_in + kBlockRadius)) {
-        fill(ghost.packet, count, rgb);
+        fill(ghost, left, y, count, rgb);
       } else {
         add_ghost(ghost.packet, line_of(ghost, left + 0.5, y + 0.5, 1.0), count, rgb);
       }
