@@ -115,15 +115,12 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
 // Sets the lines that reach the frame.
 void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
   const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
-  const auto border = std::ranges::count_if(motion.lines, &GhostLine::is_border);
-  const auto inside = static_cast<std::ptrdiff_t>(motion.lines.size()) - border;
   const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
   const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
-  // Each border line stands for an equal part of the outline.
-  const double spacing_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
   for (const GhostLine& f : motion.lines) {
+    const double own_px = std::max(f.fraction * outline_px, 1e-3);
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
-    const double visible = std::clamp(0.5 + within_px / spacing_px, 0.0, 1.0);
+    const double visible = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
     if (visible == 0.0) continue;
     BlurredLine px;
     px.normal = mirrored(f.normal);
@@ -131,7 +128,7 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, 
     px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
     const double density = f.density * value;
     px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), largest);
-    px.length_px = visible * outline_px / static_cast<double>(f.is_border ? border : inside);
+    px.length_px = visible * own_px;
     ghost.lines.push_back(px);
   }
 }
