@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 namespace contrejour::inline internal::area {
 namespace {
@@ -190,6 +192,45 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
   return squares;
 }
 
+namespace {
+
+// A ghost's mean level in a cell at some distance of its middle, over its own level; lengths in cells. It fades over a
+// cell's width, so that the sums change steadily as the ghost moves.
+double coverage(double distance, double radius) {
+  return std::clamp(radius - distance + 0.5, 0.0, 1.0) * std::min(std::numbers::pi * radius * radius, 1.0);
+}
+
+// The value that this fraction of all values reaches, by linear interpolation between neighbours in their order.
+double reached_by(std::vector<double> values, double fraction) {
+  const double at = (1.0 - fraction) * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::ptrdiff_t>(at);
+  const auto nth = values.begin() + below;
+  std::nth_element(values.begin(), nth, values.end());
+  if (nth + 1 == values.end()) return *nth;
+  return std::lerp(*nth, *std::min_element(nth + 1, values.end()), at - static_cast<double>(below));
+}
+
+// The level of the brightest ghosts that together fill an area, by linear interpolation between the middles of theirs.
+double brightest_over(const std::vector<GhostBlur>& ghosts, double area_px) {
+  std::vector<const GhostBlur*> by_level;
+  for (const GhostBlur& ghost : ghosts)
+    if (ghost.level > 0.0) by_level.push_back(&ghost);
+  std::ranges::stable_sort(by_level, std::greater(), &GhostBlur::level);
+  double filled_px = 0.0, last_px = 0.0, level = 0.0;
+  for (const GhostBlur* ghost : by_level) {
+    const double middle_px = filled_px + 0.5 * ghost->area_px;
+    if (middle_px >= area_px)
+      return ghost == by_level.front() ? ghost->level
+                                       : std::lerp(level, ghost->level, (area_px - last_px) / (middle_px - last_px));
+    level = ghost->level;
+    last_px = middle_px;
+    filled_px += ghost->area_px;
+  }
+  return level;
+}
+
+}  // namespace
+
 double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   // Sums overlapping ghosts in the cells of a small frame.
   const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
@@ -200,29 +241,15 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   for (const GhostBlur& ghost : ghosts) {
     if (!(ghost.level > 0.0)) continue;
     const Vec2 at = ghost.at_px * (1.0 / cell) - Vec2{0.5, 0.5};
-    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell;
-    for (int y = within(at.y - radius, rows); y <= within(at.y + radius, rows); ++y)
-      for (int x = within(at.x - radius, columns); x <= within(at.x + radius, columns); ++x)
-        if (length(Vec2{x - at.x, y - at.y}) <= radius)
-          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
-              ghost.level;
+    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell, reach = radius + 0.5;
+    for (int y = within(at.y - reach, rows); y <= within(at.y + reach, rows); ++y)
+      for (int x = within(at.x - reach, columns); x <= within(at.x + reach, columns); ++x)
+        sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
+            ghost.level * coverage(length(Vec2{x - at.x, y - at.y}), radius);
   }
-  const auto nth =
-      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakFraction) * static_cast<double>(sums.size() - 1));
-  std::nth_element(sums.begin(), nth, sums.end());
-  // For spots smaller than such a cell: the level of the brightest ghosts that together fill that fraction of the
-  // frame.
-  std::vector<std::pair<double, double>> by_level;
-  for (const GhostBlur& ghost : ghosts)
-    if (ghost.level > 0.0) by_level.emplace_back(ghost.level, ghost.area_px);
-  std::ranges::stable_sort(by_level, [](const auto& a, const auto& b) { return a.first > b.first; });
-  double left_px = kPeakFraction * frame.width * frame.height, brightest = 0.0;
-  for (const auto& [level, area_px] : by_level) {
-    brightest = level;
-    left_px -= area_px;
-    if (left_px <= 0.0) break;
-  }
-  return std::max(*nth, brightest);
+  // Spots are smaller than such a cell.
+  return std::max(reached_by(std::move(sums), kPeakFraction),
+                  brightest_over(ghosts, kPeakFraction * frame.width * frame.height));
 }
 
 }  // namespace contrejour::inline internal::area

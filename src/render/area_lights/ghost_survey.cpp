@@ -12,7 +12,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 // The squared error that lights may make by being divided too coarsely, over the frame's squared error.
-constexpr double kPiecesFraction = 1.5;
+constexpr double kPiecesFraction = 0.7;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
 
@@ -112,7 +112,7 @@ Result<void> GhostSurvey::examine_parts(std::span<GhostOfArea> ghosts, const std
       unsure.push_back(&ghost);
       wanted.emplace(ghost.light, 2);
     } else {
-      foresee_errors(ghost, whole, {}, budget.peak);
+      foresee_errors(ghost, whole, {}, budget);
     }
   }
   if (unsure.empty()) return {};
@@ -132,7 +132,7 @@ Result<void> GhostSurvey::examine_parts(std::span<GhostOfArea> ghosts, const std
       ghost->part_blurs.push_back(blur(parts, indices[next], found[next]));
       ghost->part_motions.push_back(std::move(found[next]));
     }
-    foresee_errors(*ghost, wholes[ghost->light].pieces.front(), parts.pieces, budget.peak);
+    foresee_errors(*ghost, wholes[ghost->light].pieces.front(), parts.pieces, budget);
   }
   return {};
 }
@@ -186,6 +186,7 @@ Result<SurveyedFrame> GhostSurvey::of(std::vector<DividedLight> wholes) const {
   AreaBudget budget;
   budget.peak = peak_of(blurs, frame);
   budget.squares = kPiecesFraction * settings_.area_error * settings_.area_error * frame.width * frame.height;
+  budget.spot_squares = kSpotFraction * settings_.area_error * settings_.area_error * frame.width * frame.height;
   for (const GhostBlur& blur : blurs)
     if (blur.level > 0.0) budget.flux += blur.flux;
   if (const auto looked = examine_parts(ghosts, wholes, budget); !looked) return tl::unexpected(looked.error());

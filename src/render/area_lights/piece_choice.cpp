@@ -67,12 +67,16 @@ bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const Are
          kSquaresFraction * budget.squares;
 }
 
-void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak) {
+void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
+                    const AreaBudget& budget) {
+  const double peak = budget.peak;
   if (!(peak > 0.0)) return;
   ghost.squares = map_error(ghost.blur, ghost.blur.px, whole, peak);
-  // A spot shows the light's outline, and pixels are too coarse for its kernel; pieces would be drawn at their true
+  // A spot shows the light's outline, and pixels may be too coarse for its kernel; pieces would be drawn at their true
   // positions.
-  if (ghost.blur.size_px.y + ghost.blur.blur_px.y < kSpot_px) ghost.squares += pixel_error(ghost.blur.over(peak));
+  const BlurredGhost blurred = ghost.blur.over(peak);
+  if (blurred.size_px.y + blurred.blur_px.y < kSpot_px)
+    ghost.squares += pixel_error(blurred, spot_level(blurred, 0, budget.spot_squares));
   if (ghost.part_blurs.empty()) return;
   double flux = 0.0, area_px = 0.0, level = 0.0, squares = 0.0, lit = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) {

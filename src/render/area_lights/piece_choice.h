@@ -29,13 +29,15 @@ struct AreaBudget {
   double peak = 0.0;
   double squares = 0.0;  // summed over the frame, in squares of the peak
   double flux = 0.0;  // of all ghosts
+  double spot_squares = 0.0;  // of one spot, as `squares` (spot_level())
 };
 
 // Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.
 [[nodiscard]] bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
 
 // Predicts `squares` and `flux_error`. parts: the pieces of the light divided in two across.
-void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak);
+void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
+                    const AreaBudget& budget);
 
 // Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
