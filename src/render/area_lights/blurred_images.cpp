@@ -59,7 +59,7 @@ class Jobs {
       for (std::size_t g = 0; g < light.ghosts.size(); ++g) {
         const GhostBlur* blur = &light.blurs[p][g];
         if (!is_whole) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
-        job.planned.push_back(&light.parts.planned[p]);
+        job.planned.push_back(planned(light.parts.planned[p], light.light_fractions[g]));
         job.ghost.push_back(light.ghosts[g]);
         job.pairs.push_back({blur, fine[g], spots_.size() + g});
       }
@@ -68,10 +68,20 @@ class Jobs {
     if (is_whole) all.push_back(std::move(own));
   }
 
+  // The light of a ghost of which only a part is made with this division.
+  const PlannedLight* planned(const PlannedLight& light, double part) {
+    if (part == 1.0) return &light;
+    PlannedLight& dim = dimmed_.emplace_back(light);
+    for (PlannedPass& pass : dim.passes)
+      for (double& gain : pass.gain) gain *= part;
+    return &dim;
+  }
+
   double peak_, spot_squares_;
   std::vector<const GhostBlur*> spots_;  // all ghosts of whole lights
   Job soft_;
   std::deque<GhostBlur> softened_;
+  std::deque<PlannedLight> dimmed_;
 };
 
 // Finds as few images as the allowed error permits, by raising or lowering the error that an image may save.

@@ -175,6 +175,13 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   return ghost;
 }
 
+GhostBlur dimmed(GhostBlur ghost, double factor) {
+  ghost.level *= factor;
+  ghost.flux *= factor;
+  for (BlurredLine& f : ghost.lines) f.height *= factor;
+  return ghost;
+}
+
 GhostBlur softened(GhostBlur ghost, const LightPiece& piece) {
   const LinearMap root = square_root(piece.covariance);
   ghost.px = ghost.px * root;
@@ -200,9 +207,10 @@ double coverage(double distance, double radius) {
   return std::clamp(radius - distance + 0.5, 0.0, 1.0) * std::min(std::numbers::pi * radius * radius, 1.0);
 }
 
-// The value that this fraction of all values reaches, by linear interpolation between neighbours in their order.
+// The value that this fraction of all values reaches, or a little less: by linear interpolation between neighbours in
+// their order.
 double reached_by(std::vector<double> values, double fraction) {
-  const double at = (1.0 - fraction) * static_cast<double>(values.size() - 1);
+  const double at = std::max((1.0 - fraction) * static_cast<double>(values.size() - 1) - 1.0, 0.0);
   const auto below = static_cast<std::ptrdiff_t>(at);
   const auto nth = values.begin() + below;
   std::nth_element(values.begin(), nth, values.end());
@@ -210,23 +218,21 @@ double reached_by(std::vector<double> values, double fraction) {
   return std::lerp(*nth, *std::min_element(nth + 1, values.end()), at - static_cast<double>(below));
 }
 
-// The level of the brightest ghosts that together fill an area, by linear interpolation between the middles of theirs.
+// The level of the brightest ghosts that together fill an area, or a little less: it changes linearly from one ghost's
+// to the next one's.
 double brightest_over(const std::vector<GhostBlur>& ghosts, double area_px) {
   std::vector<const GhostBlur*> by_level;
   for (const GhostBlur& ghost : ghosts)
     if (ghost.level > 0.0) by_level.push_back(&ghost);
   std::ranges::stable_sort(by_level, std::greater(), &GhostBlur::level);
-  double filled_px = 0.0, last_px = 0.0, level = 0.0;
-  for (const GhostBlur* ghost : by_level) {
-    const double middle_px = filled_px + 0.5 * ghost->area_px;
-    if (middle_px >= area_px)
-      return ghost == by_level.front() ? ghost->level
-                                       : std::lerp(level, ghost->level, (area_px - last_px) / (middle_px - last_px));
-    level = ghost->level;
-    last_px = middle_px;
-    filled_px += ghost->area_px;
+  double filled_px = 0.0;
+  for (std::size_t k = 0; k + 1 < by_level.size(); ++k) {
+    const double own_px = by_level[k]->area_px;
+    if (filled_px + own_px >= area_px)
+      return std::lerp(by_level[k]->level, by_level[k + 1]->level, (area_px - filled_px) / own_px);
+    filled_px += own_px;
   }
-  return level;
+  return by_level.empty() ? 0.0 : by_level.back()->level;
 }
 
 }  // namespace

@@ -142,11 +142,16 @@ Result<std::vector<SurveyedLight>> GhostSurvey::cut_as_chosen(std::span<const Gh
   std::map<Cut, SurveyedLight> by_cut;
   std::set<Cut> finer;
   for (const GhostOfArea& ghost : ghosts) {
-    const Cut which{ghost.light, ghost.across};
-    SurveyedLight& light = by_cut[which];
-    light.ghosts.push_back(ghost.ghost);
-    light.wholes.push_back(ghost.blur);
-    if (ghost.across > 1) finer.insert(which);
+    const auto add = [&](int across, double part) {
+      const Cut which{ghost.light, across};
+      SurveyedLight& light = by_cut[which];
+      light.ghosts.push_back(ghost.ghost);
+      light.light_fractions.push_back(part);
+      light.wholes.push_back(dimmed(ghost.blur, part));
+      if (across > 1) finer.insert(which);
+    };
+    add(ghost.across, 1.0 - ghost.finer);
+    if (ghost.finer > 0.0) add(finer_than(ghost.across), ghost.finer);
   }
   auto divided = cut(finer);
   if (!divided) return tl::unexpected(divided.error());
@@ -161,7 +166,8 @@ Result<std::vector<SurveyedLight>> GhostSurvey::cut_as_chosen(std::span<const Gh
     const DividedLight& parts = (*divided)[indices[k].light];
     SurveyedLight& light = by_cut.at({parts.light, parts.across});
     light.blurs.resize(parts.pieces.size());
-    light.blurs[indices[k].piece].push_back(blur(parts, indices[k], found[k]));
+    std::vector<GhostBlur>& blurs = light.blurs[indices[k].piece];
+    blurs.push_back(dimmed(blur(parts, indices[k], found[k]), light.light_fractions[blurs.size()]));
   }
   std::vector<SurveyedLight> surveyed;
   for (auto& [which, light] : by_cut) {

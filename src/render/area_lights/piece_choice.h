@@ -22,6 +22,7 @@ struct GhostOfArea {
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
   double squares = 0.0, flux_error = 0.0;
   int across = 1;  // pieces of the light
+  double finer = 0.0;  // the part of the ghost's light that is drawn with the next finer division (finer_than)
 };
 
 // The errors that a frame may make, and what they are relative to.
@@ -39,7 +40,12 @@ struct AreaBudget {
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
                     const AreaBudget& budget);
 
-// Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.
+// The next finer division: pieces across.
+[[nodiscard]] int finer_than(int across);
+
+// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with the fewest pieces. The
+// last step is made in part, for just the error allowed: so a ghost fades from one division into the next as its light
+// moves, and does not jump.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
 }  // namespace contrejour::inline internal::area
