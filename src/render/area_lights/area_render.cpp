@@ -70,7 +70,7 @@ class AreaPainter {
     part.min_peak = peak * std::exp2(2 * image.level);
     if (piece != nullptr) {
       const KernelExtent extent = extent_of(*piece, image.px_from_tangents);
-      at = ImagePyramid(frame_.settings.frame).frame_for(image.level, extent);
+      at = pyramid_of(image).frame_for(std::max(image.level, 0), extent);
       drawn.frame = at.frame;
       part.dark_margin_px = std::max(extent.left + extent.right, extent.up + extent.down);
     }
@@ -102,16 +102,28 @@ class AreaPainter {
   }
 
  private:
+  // The pyramid that the image is drawn in: the frame's, or that of a window in fine pixels.
+  [[nodiscard]] ImagePyramid pyramid_of(const BlurredImage& image) const {
+    const Frame& frame = frame_.settings.frame;
+    return ImagePyramid(image.level < 0 ? fine_frame(image.window, frame) : frame);
+  }
+
   // Blurs a picture and adds it to a sum. at: where the picture lies in the pyramid, unless it stays sharp.
   void add_to(LayerSum& sum, const BlurredImage& image, const PyramidFrame& at, DrawnImage picture, double peak) {
     sum.is_lit = true;
-    sum.pyramid.upsample_to(image.level, context_);
+    sum.pyramid.upsample_to(std::max(image.level, 0), context_);
     const PicturePart lit{picture.image, picture.left, picture.top};
     const Frame& frame = frame_.settings.frame;
     const bool is_whole = lit.image.width == frame.width && lit.image.height == frame.height;
-    if (image.piece)
-      sum.pyramid.add(lit, at, make_kernel(*image.piece, image.px_from_tangents, at.moved),
-                      kNegligibleError * frame_.settings.area_error * peak, context_);
+    const double negligible = kNegligibleError * frame_.settings.area_error * peak;
+    if (image.level < 0) {
+      ImagePyramid fine = pyramid_of(image);
+      fine.add(lit, at, make_kernel(*image.piece, image.px_from_tangents, at.moved),
+               negligible * std::exp2(2 * image.level), context_);
+      const Image spot = gathered(image.window, std::move(fine).flattened(context_));
+      sum.pyramid.add_sharp(PicturePart{spot, image.window.left, image.window.top}, context_);
+    } else if (image.piece)
+      sum.pyramid.add(lit, at, make_kernel(*image.piece, image.px_from_tangents, at.moved), negligible, context_);
     else
       is_whole ? sum.pyramid.add_sharp(std::move(picture.image), context_) : sum.pyramid.add_sharp(lit, context_);
   }

@@ -20,6 +20,7 @@ struct Group {
   LinearMap seed = kZeroMap;  // in pixels of the frame
   LinearMap px = kZeroMap;  // weighted sum
   double weight = 0.0;
+  std::size_t spot = 0;  // for a negative level
   std::vector<std::size_t> ghosts;
 
   void add(std::size_t index, const PieceGhost& one) {
@@ -33,7 +34,7 @@ struct Group {
 // The cost of an image at this level over that of an image at the frame's own resolution.
 double cost_of(int level, const Frame& frame) {
   const double px = static_cast<double>(frame.width) * frame.height;
-  return (std::exp2(-2 * level) * px + kPicture_px) / (px + kPicture_px);
+  return (std::exp2(-2 * std::max(level, 0)) * px + kPicture_px) / (px + kPicture_px);
 }
 
 class Grouping {
@@ -46,7 +47,8 @@ class Grouping {
     Group* group = group_for(one, own);
     if (group == nullptr) {
       const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
-      group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, kZeroMap, 0.0, {}});
+      group =
+          &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, kZeroMap, 0.0, one.spot, {}});
     } else
       squares += cheapest_;
     group->add(index, one);
@@ -63,11 +65,15 @@ class Grouping {
     double cheapest = std::numeric_limits<double>::infinity();
     const double limit = allowed_ * cost_of(one.level, frame_);
     for (Group& group : groups) {
-      const double coarse = group.level > one.level ? level_error(one.blur->over(peak_), group.level) : 0.0;
+      const bool is_window = group.level < 0 || one.level < 0;
+      if (is_window && (group.level != one.level || group.spot != one.spot)) continue;
+      const BlurredGhost ghost = one.blur->over(peak_);
+      const double coarse =
+          group.level > one.level ? level_error(ghost, group.level) + spot_error(ghost, group.level) : 0.0;
       if (!(coarse <= limit)) continue;
       const LinearMap& map = group.is_sharp ? kZeroMap : group.seed;
       const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own, 0.0) + coarse;
-      const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * group.level);
+      const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * std::max(group.level, 0));
       if (!(error <= limit && cost < cheapest)) continue;
       cheapest = cost;
       cheapest_ = error;

@@ -12,10 +12,12 @@
 
 namespace contrejour::inline internal::area {
 
-// A ghost of a piece of a light, with the coarsest level of the image pyramid in which it may be drawn (layers.h).
+// A ghost of a piece of a light, with the coarsest level of the image pyramid in which it may be drawn
+// (image_pyramid.h); a negative level is that of a window of its own (fine_window.h).
 struct PieceGhost {
   const GhostBlur* blur = nullptr;
   int level = 0;
+  std::size_t spot = 0;  // if negative: ghosts of one spot, in pieces of one light, share that window
 };
 
 struct BlurCluster {

@@ -62,11 +62,29 @@ double level_error(const BlurredGhost& g, int level) {
   return outline_px(g) * clipped(g.level * g.level * width * coarse_edge_error(edge_width_px(g) / width), width);
 }
 
-double pixel_error(const BlurredGhost& g) {
+double pixel_error(const BlurredGhost& g, int level) {
   constexpr double kNarrow = 0.8;  // below, errors fall as the fourth moment of the blur
-  const double error =
-      coarse_edge_error(std::max(g.blur_px.y, kNarrow)) * std::pow(std::min(g.blur_px.y / kNarrow, 1.0), 4.0);
-  return outline_px(g) * clipped(g.level * g.level * error, 1.0);
+  const double width = std::exp2(level), blur = g.blur_px.y / width;
+  const double error = coarse_edge_error(std::max(blur, kNarrow)) * std::pow(std::min(blur / kNarrow, 1.0), 4.0);
+  return outline_px(g) * clipped(g.level * g.level * width * error, width);
+}
+
+// The centroid of what pixels hold of a spot is off by up to half a pixel, and less by the factor by which the spot's
+// size dampens a wave as long as a pixel: exp(-2 pi^2 s^2) for a Gaussian spot of standard deviation s, half the
+// radius.
+double spot_error(const BlurredGhost& g, int level) {
+  const double width = std::exp2(level), s = 0.5 * g.size_px.y / width;
+  const double displacement_px = width * std::exp(-2.0 * std::numbers::pi * std::numbers::pi * s * s);
+  const double outline_px = std::numbers::pi * (g.blur_px.x + g.blur_px.y);
+  return outline_px * misfit_error(g.level, 0.5 * width, displacement_px);
+}
+
+int spot_level(const BlurredGhost& g, int coarsest, double allowed_squares) {
+  constexpr double kWidest = 12.0;  // radius of a blur in pixels: wider ones show no pixels
+  int level = coarsest;
+  while (level > kFinestLevel && g.blur_px.y < kWidest * std::exp2(level) && spot_error(g, level) > allowed_squares)
+    --level;
+  return level;
 }
 
 std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_squares) {

@@ -23,15 +23,26 @@ struct BlurredGhost {
 // The error of an image with pixels 2^level times as wide.
 [[nodiscard]] double level_error(const BlurredGhost& ghost, int level);
 
-// The error of the frame's own pixels. A kernel that spans few of them has the right width, but not the right shape.
-[[nodiscard]] double pixel_error(const BlurredGhost& ghost);
+// The error of the pixels of this level, 0 or less. A kernel that spans few of them has the right width, but not the
+// right shape.
+[[nodiscard]] double pixel_error(const BlurredGhost& ghost, int level);
 
 // The error for a pixel's length of an edge with this height over the peak, whose blur's radius is off by
 // `displacement_px`.
 [[nodiscard]] double misfit_error(double height, double edge_width_px, double displacement_px);
 
-// The levels of all ghosts (layers.h): fine enough to be safe, and coarser for as many ghosts as together make no more
-// error than `allowed_squares`.
+// The error of a ghost that is smaller than a pixel, for pixels 2^level times as wide: its place in the pixel is lost.
+// It is the largest, so that it also bounds the step as the ghost moves from pixel to pixel. Negligible for others.
+[[nodiscard]] double spot_error(const BlurredGhost& ghost, int level);
+
+// The level up to `coarsest` at which a spot makes no more than that error: a negative one is that of a window of fine
+// pixels (fine_window.h).
+inline constexpr int kFinestLevel = -3;
+inline constexpr double kSpotFraction = 0.03;  // of the frame's squared error: what a spot is allowed
+[[nodiscard]] int spot_level(const BlurredGhost& ghost, int coarsest, double allowed_squares);
+
+// The levels of all ghosts (image_pyramid.h): fine enough to be safe, and coarser for as many ghosts as together make
+// no more error than `allowed_squares`.
 [[nodiscard]] std::vector<int> levels_of(std::span<const BlurredGhost> ghosts, double allowed_squares);
 
 }  // namespace contrejour::inline internal::area

@@ -10,7 +10,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kLevelFraction = 0.1;    // of the frame's squared error: for coarse pixels,
-constexpr double kMisfitFraction = 0.5;   // and for ghosts that are drawn with another ghost's blur
+constexpr double kMisfitFraction = 0.3;   // and for ghosts that are drawn with another ghost's blur
 constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first trial
 constexpr int kTrials = 4;
 
@@ -25,11 +25,12 @@ struct Job {
 
 class Jobs {
  public:
-  explicit Jobs(const SurveyedFrame& frame, double allowed_squares) {
+  // squares: the frame's squared error.
+  Jobs(const SurveyedFrame& frame, double squares) : peak_(frame.peak), spot_squares_(kSpotFraction * squares) {
     std::vector<BlurredGhost> wholes;
     for (const SurveyedLight& light : frame.lights)
       for (const GhostBlur& whole : light.wholes) wholes.push_back(whole.over(frame.peak));
-    const std::vector<int> levels = levels_of(wholes, allowed_squares);
+    const std::vector<int> levels = levels_of(wholes, kLevelFraction * squares);
     soft_.piece = std::make_shared<const LightPiece>(soft_piece());
     std::size_t next = 0;
     for (const SurveyedLight& light : frame.lights) {
@@ -41,6 +42,9 @@ class Jobs {
 
   std::vector<Job> all;
 
+  // The ghost of the whole light that pieces with this index make.
+  [[nodiscard]] const GhostBlur& spot(std::size_t index) const { return *spots_[index]; }
+
  private:
   void add(const SurveyedLight& light, std::span<const int> levels) {
     const bool is_whole = light.parts.across == 1;
@@ -48,20 +52,36 @@ class Jobs {
     Job& job = is_whole ? own : soft_;
     if (is_whole) job.piece = std::make_shared<const LightPiece>(light.parts.pieces.front());
     job.is_point = job.piece->samples.empty();
+    std::vector<int> fine;
+    for (std::size_t g = 0; g < levels.size(); ++g)
+      fine.push_back(spot_level(light.wholes[g].over(peak_), levels[g], spot_squares_));
     for (std::size_t p = 0; p < light.parts.pieces.size(); ++p) {
       for (std::size_t g = 0; g < light.ghosts.size(); ++g) {
         const GhostBlur* blur = &light.blurs[p][g];
         if (!is_whole) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
-        job.planned.push_back(&light.parts.planned[p]);
+        job.planned.push_back(planned(light.parts.planned[p], light.light_fractions[g]));
         job.ghost.push_back(light.ghosts[g]);
-        job.pairs.push_back({blur, levels[g]});
+        job.pairs.push_back({blur, fine[g], spots_.size() + g});
       }
     }
+    for (const GhostBlur& whole : light.wholes) spots_.push_back(&whole);
     if (is_whole) all.push_back(std::move(own));
   }
 
+  // The light of a ghost of which only a part is made with this division.
+  const PlannedLight* planned(const PlannedLight& light, double part) {
+    if (part == 1.0) return &light;
+    PlannedLight& dim = dimmed_.emplace_back(light);
+    for (PlannedPass& pass : dim.passes)
+      for (double& gain : pass.gain) gain *= part;
+    return &dim;
+  }
+
+  double peak_, spot_squares_;
+  std::vector<const GhostBlur*> spots_;  // all ghosts of whole lights
   Job soft_;
   std::deque<GhostBlur> softened_;
+  std::deque<PlannedLight> dimmed_;
 };
 
 // Finds as few images as the allowed error permits, by raising or lowering the error that an image may save.
@@ -90,11 +110,15 @@ void add_pair(BlurredImage& image, const Job& job, std::size_t k, const PlannedL
   image.pairs.push_back({job.ghost[k], image.lights.size() - 1});
 }
 
+FineWindow window_of(const GhostBlur& spot, const Frame& frame, int level) {
+  return window_around(spot.at_px, spot.size_px.y + spot.blur_px.y, frame, level);
+}
+
 }  // namespace
 
 std::vector<BlurredImage> blurred_images(const SurveyedFrame& frame, const FrameSettings& settings) {
   const double squares = settings.area_error * settings.area_error * settings.frame.width * settings.frame.height;
-  const Jobs jobs(frame, kLevelFraction * squares);
+  const Jobs jobs(frame, squares);
   const std::vector<BlurClusters> clusters =
       clusters_of(jobs.all, settings.frame, frame.peak, kMisfitFraction * squares);
   std::vector<BlurredImage> images;
@@ -104,7 +128,9 @@ std::vector<BlurredImage> blurred_images(const SurveyedFrame& frame, const Frame
     const PlannedLight* last = nullptr;
     for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) add_pair(sharp, job, k, last);
     for (const BlurCluster& made : clusters[j].clusters) {
-      BlurredImage image{{}, {}, job.piece, made.level, made.px_from_tangents};
+      BlurredImage image{{}, {}, job.piece, made.level, made.px_from_tangents, {}};
+      if (made.level < 0)
+        image.window = window_of(jobs.spot(job.pairs[made.ghosts.front()].spot), settings.frame, made.level);
       last = nullptr;
       for (const std::size_t k : made.ghosts) add_pair(made.is_sharp ? sharp : image, job, k, last);
       if (!made.is_sharp) images.push_back(std::move(image));

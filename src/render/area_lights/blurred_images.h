@@ -7,6 +7,7 @@
 
 #include "contrejour/frame_settings.h"
 #include "render/area_lights/blur_clusters.h"
+#include "render/area_lights/fine_window.h"
 #include "render/area_lights/ghost_survey.h"
 
 namespace contrejour::inline internal::area {
@@ -18,6 +19,7 @@ struct BlurredImage {
   std::shared_ptr<const LightPiece> piece = nullptr;  // null: the image is sharp
   int level = 0;
   LinearMap px_from_tangents = kZeroMap;
+  FineWindow window;  // for negative levels
 };
 
 // In the order in which Layers takes them. Ghosts of point lights, and those whose blur is not visible, stay sharp.

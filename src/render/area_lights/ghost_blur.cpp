@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 namespace contrejour::inline internal::area {
 namespace {
@@ -115,15 +117,12 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
 // Sets the lines that reach the frame.
 void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
   const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
-  const auto border = std::ranges::count_if(motion.lines, &GhostLine::is_border);
-  const auto inside = static_cast<std::ptrdiff_t>(motion.lines.size()) - border;
   const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
   const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
-  // Each border line stands for an equal part of the outline.
-  const double spacing_px = outline_px / static_cast<double>(std::max<std::ptrdiff_t>(border, 1));
   for (const GhostLine& f : motion.lines) {
+    const double own_px = std::max(f.fraction * outline_px, 1e-3);
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
-    const double visible = std::clamp(0.5 + within_px / spacing_px, 0.0, 1.0);
+    const double visible = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
     if (visible == 0.0) continue;
     BlurredLine px;
     px.normal = mirrored(f.normal);
@@ -131,7 +130,7 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, 
     px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
     const double density = f.density * value;
     px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), largest);
-    px.length_px = visible * outline_px / static_cast<double>(f.is_border ? border : inside);
+    px.length_px = visible * own_px;
     ghost.lines.push_back(px);
   }
 }
@@ -176,6 +175,13 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   return ghost;
 }
 
+GhostBlur dimmed(GhostBlur ghost, double factor) {
+  ghost.level *= factor;
+  ghost.flux *= factor;
+  for (BlurredLine& f : ghost.lines) f.height *= factor;
+  return ghost;
+}
+
 GhostBlur softened(GhostBlur ghost, const LightPiece& piece) {
   const LinearMap root = square_root(piece.covariance);
   ghost.px = ghost.px * root;
@@ -193,6 +199,44 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
   return squares;
 }
 
+namespace {
+
+// A ghost's mean level in a cell at some distance of its middle, over its own level; lengths in cells. It fades over a
+// cell's width, so that the sums change steadily as the ghost moves.
+double coverage(double distance, double radius) {
+  return std::clamp(radius - distance + 0.5, 0.0, 1.0) * std::min(std::numbers::pi * radius * radius, 1.0);
+}
+
+// The value that this fraction of all values reaches, or a little less: by linear interpolation between neighbours in
+// their order.
+double reached_by(std::vector<double> values, double fraction) {
+  const double at = std::max((1.0 - fraction) * static_cast<double>(values.size() - 1) - 1.0, 0.0);
+  const auto below = static_cast<std::ptrdiff_t>(at);
+  const auto nth = values.begin() + below;
+  std::nth_element(values.begin(), nth, values.end());
+  if (nth + 1 == values.end()) return *nth;
+  return std::lerp(*nth, *std::min_element(nth + 1, values.end()), at - static_cast<double>(below));
+}
+
+// The level of the brightest ghosts that together fill an area, or a little less: it changes linearly from one ghost's
+// to the next one's.
+double brightest_over(const std::vector<GhostBlur>& ghosts, double area_px) {
+  std::vector<const GhostBlur*> by_level;
+  for (const GhostBlur& ghost : ghosts)
+    if (ghost.level > 0.0) by_level.push_back(&ghost);
+  std::ranges::stable_sort(by_level, std::greater(), &GhostBlur::level);
+  double filled_px = 0.0;
+  for (std::size_t k = 0; k + 1 < by_level.size(); ++k) {
+    const double own_px = by_level[k]->area_px;
+    if (filled_px + own_px >= area_px)
+      return std::lerp(by_level[k]->level, by_level[k + 1]->level, (area_px - filled_px) / own_px);
+    filled_px += own_px;
+  }
+  return by_level.empty() ? 0.0 : by_level.back()->level;
+}
+
+}  // namespace
+
 double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   // Sums overlapping ghosts in the cells of a small frame.
   const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
@@ -203,29 +247,15 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   for (const GhostBlur& ghost : ghosts) {
     if (!(ghost.level > 0.0)) continue;
     const Vec2 at = ghost.at_px * (1.0 / cell) - Vec2{0.5, 0.5};
-    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell;
-    for (int y = within(at.y - radius, rows); y <= within(at.y + radius, rows); ++y)
-      for (int x = within(at.x - radius, columns); x <= within(at.x + radius, columns); ++x)
-        if (length(Vec2{x - at.x, y - at.y}) <= radius)
-          sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
-              ghost.level;
+    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell, reach = radius + 0.5;
+    for (int y = within(at.y - reach, rows); y <= within(at.y + reach, rows); ++y)
+      for (int x = within(at.x - reach, columns); x <= within(at.x + reach, columns); ++x)
+        sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
+            ghost.level * coverage(length(Vec2{x - at.x, y - at.y}), radius);
   }
-  const auto nth =
-      sums.begin() + static_cast<std::ptrdiff_t>((1.0 - kPeakFraction) * static_cast<double>(sums.size() - 1));
-  std::nth_element(sums.begin(), nth, sums.end());
-  // For spots smaller than such a cell: the level of the brightest ghosts that together fill that fraction of the
-  // frame.
-  std::vector<std::pair<double, double>> by_level;
-  for (const GhostBlur& ghost : ghosts)
-    if (ghost.level > 0.0) by_level.emplace_back(ghost.level, ghost.area_px);
-  std::ranges::stable_sort(by_level, [](const auto& a, const auto& b) { return a.first > b.first; });
-  double left_px = kPeakFraction * frame.width * frame.height, brightest = 0.0;
-  for (const auto& [level, area_px] : by_level) {
-    brightest = level;
-    left_px -= area_px;
-    if (left_px <= 0.0) break;
-  }
-  return std::max(*nth, brightest);
+  // Spots are smaller than such a cell.
+  return std::max(reached_by(std::move(sums), kPeakFraction),
+                  brightest_over(ghosts, kPeakFraction * frame.width * frame.height));
 }
 
 }  // namespace contrejour::inline internal::area

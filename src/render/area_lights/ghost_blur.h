@@ -38,6 +38,9 @@ struct GhostBlur {
 [[nodiscard]] GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Frame& frame, Vec2 shift_mm,
                                 double value);
 
+// The same ghost, of a light that is so much dimmer.
+[[nodiscard]] GhostBlur dimmed(GhostBlur ghost, double factor);
+
 // The same ghost, blurred by the soft piece (light_pieces.h) as widely as by this piece.
 [[nodiscard]] GhostBlur softened(GhostBlur ghost, const LightPiece& piece);
 

@@ -12,7 +12,7 @@
 
 namespace contrejour::inline internal::area {
 
-using pupils::BorderRay, pupils::kRims, pupils::PupilShape;
+using pupils::BorderPoint, pupils::InnerPoint, pupils::kRims, pupils::PupilShape;
 
 namespace {
 
@@ -177,75 +177,136 @@ class LocalMotion {
   double step_mm_;
 };
 
+// A ray at the border, and one of the interior, with what it stands for.
+struct BorderMotion {
+  LocalMotion at;
+  int bound = 0;
+  double length_mm = 0.0;
+};
+struct InnerMotion {
+  LocalMotion at;
+  double fraction = 0.0;
+};
+
 Vec2 across(Vec2 v) { return {-v.y, v.x}; }
 
 // At the outline, only the motion along the normal counts: it follows whatever blocks the light there.
-std::optional<GhostLine> border_line(const LocalMotion& at, int which) {
-  const LocalMotion::Bound bound = at.bound(which);
+std::optional<GhostLine> border_line(const BorderMotion& border) {
+  const LocalMotion& at = border.at;
+  const LocalMotion::Bound bound = at.bound(border.bound);
   const double steepness = dot(bound.by_start, bound.by_start);
   const Vec2 edge = at.sensor_by_start(across(bound.by_start));
   if (!std::isnormal(steepness) || !(length(edge) > 0.0)) return std::nullopt;
   const Vec2 normal = across(edge) * (1.0 / length(edge));
   const double by_height = dot(normal, at.sensor_by_start(bound.by_start)) / steepness;
-  return GhostLine{normal, along(normal, at.sensor_by_angle) - bound.by_angle * by_height, at.ray().sensor_mm,
-                   at.density(), true};
+  return GhostLine{normal,
+                   along(normal, at.sensor_by_angle) - bound.by_angle * by_height,
+                   at.ray().sensor_mm,
+                   at.density(),
+                   true,
+                   border.length_mm};
 }
 
 // A caustic lies along the image of the direction that the map from the pupil hardly stretches.
-GhostLine inner_line(const LocalMotion& at, const LinearMap& shift) {
+GhostLine inner_line(const InnerMotion& inner, const LinearMap& shift) {
+  const LocalMotion& at = inner.at;
   const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
   const double angle = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
   const Vec2 normal{-std::sin(angle), std::cos(angle)};
-  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false};
+  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false, inner.fraction};
 }
 
 // The motion of the whole pupil in the plane of the starts, fitted to its border by least squares.
-LinearMap pupil_motion(const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+LinearMap pupil_motion(const std::vector<BorderMotion>& borders) {
   LinearMap squares = kZeroMap, sums = kZeroMap;
-  for (std::size_t k = 0; k < border.size(); ++k) {
-    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+  for (const BorderMotion& border : borders) {
+    const LocalMotion::Bound bound = border.at.bound(border.bound);
     const double steepness = dot(bound.by_start, bound.by_start);
     if (!std::isnormal(steepness)) continue;
     const Vec2 m = bound.by_start;
-    squares = squares + LinearMap{m * (m.x / steepness), m * (m.y / steepness)};
-    sums = sums + LinearMap{m * (-bound.by_angle.x / steepness), m * (-bound.by_angle.y / steepness)};
+    const double w = border.length_mm / steepness;
+    squares = squares + LinearMap{m * (w * m.x), m * (w * m.y)};
+    sums = sums + LinearMap{m * (-w * bound.by_angle.x), m * (-w * bound.by_angle.y)};
   }
   const double trace = trace_of(squares);
   if (!(squares.determinant() > 1e-3 * trace * trace)) return kZeroMap;
   return inverse(squares) * sums;
 }
 
-Vec2 area_rate(const PupilShape& pupil, const std::vector<LocalMotion>& border, const std::vector<int>& bounds) {
+Vec2 area_rate(const PupilShape& pupil, const std::vector<BorderMotion>& borders) {
   Vec2 rate;
-  for (std::size_t k = 0; k < border.size(); ++k) {
-    const LocalMotion::Bound bound = border[k].bound(bounds[k]);
+  double length_mm = 0.0;
+  for (const BorderMotion& border : borders) {
+    const LocalMotion::Bound bound = border.at.bound(border.bound);
     const double steepness = length(bound.by_start);
-    if (std::isnormal(steepness)) rate = rate - bound.by_angle * (1.0 / steepness);
+    length_mm += border.length_mm;
+    if (std::isnormal(steepness)) rate = rate - bound.by_angle * (border.length_mm / steepness);
   }
-  if (border.empty() || !(pupil.area_mm2 > 0.0)) return {};
-  return rate * (pupil.border_mm / static_cast<double>(border.size()) / pupil.area_mm2);
+  if (!(length_mm > 0.0) || !(pupil.area_mm2 > 0.0)) return {};
+  return rate * (pupil.border_mm / length_mm / pupil.area_mm2);
 }
 
-// Sets the centre and the spread of where the light lands; each ray stands for an equal area of the pupil.
-void set_extent(GhostMotion& motion, const std::vector<LocalMotion>& inside, double area_mm2) {
-  double light = 0.0;
-  for (const LocalMotion& at : inside) {
-    motion.centroid_mm = motion.centroid_mm + at.ray().sensor_mm * at.ray().transmission;
-    light += at.ray().transmission;
+// Sets the centre and the spread of where the light lands.
+void set_extent(GhostMotion& motion, const std::vector<InnerMotion>& inside, double area_mm2) {
+  double light = 0.0, all = 0.0;
+  for (const auto& [at, fraction] : inside) {
+    motion.centroid_mm = motion.centroid_mm + at.ray().sensor_mm * (fraction * at.ray().transmission);
+    light += fraction * at.ray().transmission;
+    all += fraction;
   }
   motion.centroid_mm = motion.centroid_mm * (1.0 / light);
   LinearMap covariance = kZeroMap;
-  const auto count = static_cast<double>(inside.size());
-  for (const LocalMotion& at : inside) {
+  for (const auto& [at, fraction] : inside) {
     const Vec2 d = at.ray().sensor_mm - motion.centroid_mm;
-    const double weight = at.ray().transmission / light;
+    const double weight = fraction * at.ray().transmission / light;
     // Adds the spread of the light between these rays, by the local derivative of the map.
-    const double part = area_mm2 / count / 12.0;
+    const double part = area_mm2 * fraction / 12.0;
     covariance = covariance + LinearMap{d * (d.x * weight), d * (d.y * weight)} +
                  at.sensor_by_start * transposed(at.sensor_by_start) * (part * weight);
   }
   motion.spread_mm = square_root(covariance * 4.0);
-  motion.flux_mm2 = light / count * area_mm2;
+  motion.flux_mm2 = light / all * area_mm2;
+}
+
+// The motion of the start of a ray for lights to the right and above, through the same point of what bounds the pupil:
+// of each bound, by how much of the border it makes.
+class StartMotion {
+ public:
+  StartMotion(const PupilShape& pupil, const std::vector<BorderMotion>& borders) : of_rims_(pupil_motion(borders)) {
+    double all = 0.0;
+    for (std::size_t k = 0; k < weights_.size(); ++k) {
+      weights_[k] = std::pow(pupil.bound_fractions[k], kDominance);
+      all += weights_[k];
+    }
+    if (all > 0.0)
+      for (double& weight : weights_) weight /= all;
+    else
+      weights_[kRims] = 1.0;
+  }
+
+  [[nodiscard]] LinearMap of(const LocalMotion& at) const {
+    LinearMap sum = of_rims_ * weights_[kRims];
+    for (std::size_t c = 0; c < kMaxStopCrossings; ++c)
+      if (weights_[c] > kLeastWeight) sum = sum + at.start_at_stop(c) * weights_[c];
+    return sum;
+  }
+
+ private:
+  static constexpr double kDominance = 4.0;  // the bound of most of the border counts nearly alone
+  static constexpr double kLeastWeight = 1e-4;
+  LinearMap of_rims_;
+  std::array<double, kMaxStopCrossings + 1> weights_{};
+};
+
+// Makes the fractions of all lines of a kind sum to 1.
+void normalise_fractions(std::vector<GhostLine>& lines) {
+  for (const bool is_border : {true, false}) {
+    double sum = 0.0;
+    for (const GhostLine& line : lines)
+      if (line.is_border == is_border) sum += line.fraction;
+    for (GhostLine& line : lines)
+      if (line.is_border == is_border) line.fraction /= sum;
+  }
 }
 
 // The motion of a ghost of which no ray was found to get through, by the ray that is blocked least.
@@ -278,41 +339,39 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
   step_mm = std::min(step_mm, kPupilStep * std::sqrt(trace_of(pupil->covariance)));
 
   std::vector<Vec2> starts_mm{pupil->middle_mm};
-  starts_mm.insert(starts_mm.end(), pupil->inside_mm.begin(), pupil->inside_mm.end());
-  for (const BorderRay& ray : pupil->border) starts_mm.push_back(ray.start_mm);
+  for (const InnerPoint& point : pupil->inside) starts_mm.push_back(point.start_mm);
+  for (const BorderPoint& point : pupil->border) starts_mm.push_back(point.start_mm);
   const std::vector<RayFive> fives = rays.around(starts_mm, step_mm);
-  std::vector<LocalMotion> inside, border;
-  std::vector<int> bounds;
-  for (std::size_t k = 0; k < fives.size(); ++k) {
+  const LocalMotion middle(fives.front(), step_mm);
+  std::vector<InnerMotion> inside;
+  std::vector<BorderMotion> borders;
+  for (std::size_t k = 1; k < fives.size(); ++k) {
     const LocalMotion at(fives[k], step_mm);
     if (!at.is_usable()) continue;
-    if (k < 1 + pupil->inside_mm.size()) {
-      inside.push_back(at);
-    } else {
-      border.push_back(at);
-      bounds.push_back(pupil->border[k - 1 - pupil->inside_mm.size()].bound);
-    }
+    const std::size_t border = k - 1 - pupil->inside.size();
+    if (k <= pupil->inside.size())
+      inside.push_back({at, pupil->inside[k - 1].fraction});
+    else
+      borders.push_back({at, pupil->border[border].bound, pupil->border[border].length_mm});
   }
   if (inside.empty()) return {};
 
   GhostMotion motion;
   motion.is_open = true;
-  const LinearMap start_by_angle = pupil_motion(border, bounds);
-  const auto shift_of = [&](const LocalMotion& at) {
-    if (pupil->bound != kRims) return at.shift(at.start_at_stop(static_cast<std::size_t>(pupil->bound)));
-    return at.shift(start_by_angle);
-  };
-  motion.shift_mm = shift_of(inside.front());
+  const StartMotion start(*pupil, borders);
+  const LocalMotion& centre = middle.is_usable() ? middle : inside.front().at;
+  motion.shift_mm = centre.shift(start.of(centre));
   set_extent(motion, inside, pupil->area_mm2);
   motion.flux_mm2 *= source.direction.z;
-  motion.area_rate = area_rate(*pupil, border, bounds);
-  for (std::size_t k = 0; k < border.size(); ++k)
-    if (const auto line = border_line(border[k], bounds[k])) motion.lines.push_back(*line);
-  for (const LocalMotion& at : inside) motion.lines.push_back(inner_line(at, shift_of(at)));
+  motion.area_rate = area_rate(*pupil, borders);
+  for (const BorderMotion& border : borders)
+    if (const auto line = border_line(border)) motion.lines.push_back(*line);
+  for (const InnerMotion& inner : inside) motion.lines.push_back(inner_line(inner, inner.at.shift(start.of(inner.at))));
   for (GhostLine& line : motion.lines) line.density *= source.direction.z;
   std::erase_if(motion.lines, [](const GhostLine& f) {
     return !std::isfinite(f.density + f.shift_mm.x + f.shift_mm.y + f.normal.x + f.normal.y);
   });
+  normalise_fractions(motion.lines);
   if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};
   return motion;
 }

@@ -19,6 +19,7 @@ struct GhostLine {
   Vec2 at_mm;
   double density = 0.0;  // the irradiance there over the light's
   bool is_border = true;  // whether it belongs to the outline
+  double fraction = 0.0;  // of the outline, or of the pupil's area, that it stands for
 };
 
 struct GhostMotion {

@@ -12,7 +12,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 // The squared error that lights may make by being divided too coarsely, over the frame's squared error.
-constexpr double kPiecesFraction = 1.5;
+constexpr double kPiecesFraction = 1.2;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
 
@@ -112,7 +112,7 @@ Result<void> GhostSurvey::examine_parts(std::span<GhostOfArea> ghosts, const std
       unsure.push_back(&ghost);
       wanted.emplace(ghost.light, 2);
     } else {
-      foresee_errors(ghost, whole, {}, budget.peak);
+      foresee_errors(ghost, whole, {}, budget);
     }
   }
   if (unsure.empty()) return {};
@@ -132,7 +132,7 @@ Result<void> GhostSurvey::examine_parts(std::span<GhostOfArea> ghosts, const std
       ghost->part_blurs.push_back(blur(parts, indices[next], found[next]));
       ghost->part_motions.push_back(std::move(found[next]));
     }
-    foresee_errors(*ghost, wholes[ghost->light].pieces.front(), parts.pieces, budget.peak);
+    foresee_errors(*ghost, wholes[ghost->light].pieces.front(), parts.pieces, budget);
   }
   return {};
 }
@@ -142,11 +142,16 @@ Result<std::vector<SurveyedLight>> GhostSurvey::cut_as_chosen(std::span<const Gh
   std::map<Cut, SurveyedLight> by_cut;
   std::set<Cut> finer;
   for (const GhostOfArea& ghost : ghosts) {
-    const Cut which{ghost.light, ghost.across};
-    SurveyedLight& light = by_cut[which];
-    light.ghosts.push_back(ghost.ghost);
-    light.wholes.push_back(ghost.blur);
-    if (ghost.across > 1) finer.insert(which);
+    const auto add = [&](int across, double part) {
+      const Cut which{ghost.light, across};
+      SurveyedLight& light = by_cut[which];
+      light.ghosts.push_back(ghost.ghost);
+      light.light_fractions.push_back(part);
+      light.wholes.push_back(dimmed(ghost.blur, part));
+      if (across > 1) finer.insert(which);
+    };
+    add(ghost.across, 1.0 - ghost.finer);
+    if (ghost.finer > 0.0) add(finer_than(ghost.across), ghost.finer);
   }
   auto divided = cut(finer);
   if (!divided) return tl::unexpected(divided.error());
@@ -161,7 +166,8 @@ Result<std::vector<SurveyedLight>> GhostSurvey::cut_as_chosen(std::span<const Gh
     const DividedLight& parts = (*divided)[indices[k].light];
     SurveyedLight& light = by_cut.at({parts.light, parts.across});
     light.blurs.resize(parts.pieces.size());
-    light.blurs[indices[k].piece].push_back(blur(parts, indices[k], found[k]));
+    std::vector<GhostBlur>& blurs = light.blurs[indices[k].piece];
+    blurs.push_back(dimmed(blur(parts, indices[k], found[k]), light.light_fractions[blurs.size()]));
   }
   std::vector<SurveyedLight> surveyed;
   for (auto& [which, light] : by_cut) {
@@ -186,6 +192,7 @@ Result<SurveyedFrame> GhostSurvey::of(std::vector<DividedLight> wholes) const {
   AreaBudget budget;
   budget.peak = peak_of(blurs, frame);
   budget.squares = kPiecesFraction * settings_.area_error * settings_.area_error * frame.width * frame.height;
+  budget.spot_squares = kSpotFraction * settings_.area_error * settings_.area_error * frame.width * frame.height;
   for (const GhostBlur& blur : blurs)
     if (blur.level > 0.0) budget.flux += blur.flux;
   if (const auto looked = examine_parts(ghosts, wholes, budget); !looked) return tl::unexpected(looked.error());

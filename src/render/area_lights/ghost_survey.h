@@ -32,6 +32,7 @@ struct DividedLight {
 struct SurveyedLight {
   DividedLight parts;
   std::vector<std::size_t> ghosts;  // of the plan
+  std::vector<double> light_fractions;  // one for each of `ghosts`: the fraction of its light in this division
   std::vector<GhostBlur> wholes;  // one for each of `ghosts`: with the light undivided
   std::vector<std::vector<GhostBlur>> blurs;  // by piece, then as in `ghosts`
 };

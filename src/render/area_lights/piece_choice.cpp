@@ -67,12 +67,16 @@ bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const Are
          kSquaresFraction * budget.squares;
 }
 
-void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak) {
+void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
+                    const AreaBudget& budget) {
+  const double peak = budget.peak;
   if (!(peak > 0.0)) return;
   ghost.squares = map_error(ghost.blur, ghost.blur.px, whole, peak);
-  // A spot shows the light's outline, and pixels are too coarse for its kernel; pieces would be drawn at their true
+  // A spot shows the light's outline, and pixels may be too coarse for its kernel; pieces would be drawn at their true
   // positions.
-  if (ghost.blur.size_px.y + ghost.blur.blur_px.y < kSpot_px) ghost.squares += pixel_error(ghost.blur.over(peak));
+  const BlurredGhost blurred = ghost.blur.over(peak);
+  if (blurred.size_px.y + blurred.blur_px.y < kSpot_px)
+    ghost.squares += pixel_error(blurred, spot_level(blurred, 0, budget.spot_squares));
   if (ghost.part_blurs.empty()) return;
   double flux = 0.0, area_px = 0.0, level = 0.0, squares = 0.0, lit = 0.0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -104,11 +108,15 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
   ghost.squares = std::min(ghost.squares, 2.0 * all * all * bright.area_px);
 }
 
+int finer_than(int across) { return *std::ranges::upper_bound(kAcross, across); }
+
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
   using Gain = std::pair<double, std::size_t>;
-  const auto next = [](int across) { return *std::ranges::upper_bound(kAcross, across); };
   // The error that the next finer division saves for each additional piece.
   const auto refine = [&](double allowed, const auto& left) {
+    const auto saved = [&](const GhostOfArea& ghost) {
+      return left(ghost, ghost.across) - left(ghost, finer_than(ghost.across));
+    };
     std::priority_queue<Gain> steps;
     double sum = 0.0;
     const auto push = [&](std::size_t k) {
@@ -117,17 +125,24 @@ void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
         sum -= left(ghosts[k], n);  // other ghosts need not compensate for it
         return;
       }
-      const int finer = next(n);
-      steps.emplace((left(ghosts[k], n) - left(ghosts[k], finer)) / (finer * finer - n * n), k);
+      const int finer = finer_than(n);
+      steps.emplace(saved(ghosts[k]) / (finer * finer - n * n), k);
     };
-    for (std::size_t k = 0; k < ghosts.size(); ++k) sum += left(ghosts[k], ghosts[k].across);
+    for (const GhostOfArea& ghost : ghosts)
+      sum += left(ghost, ghost.across) - (ghost.finer > 0.0 ? ghost.finer * saved(ghost) : 0.0);
     for (std::size_t k = 0; k < ghosts.size(); ++k) push(k);
     while (sum > allowed && !steps.empty() && steps.top().first > 0.0) {
       const std::size_t k = steps.top().second;
+      GhostOfArea& ghost = ghosts[k];
+      const double whole = saved(ghost), rest = (1.0 - ghost.finer) * whole;
+      if (sum - rest < allowed) {
+        ghost.finer += (sum - allowed) / whole;
+        return;
+      }
       steps.pop();
-      const int finer = next(ghosts[k].across);
-      sum -= left(ghosts[k], ghosts[k].across) - left(ghosts[k], finer);
-      ghosts[k].across = finer;
+      sum -= rest;
+      ghost.across = finer_than(ghost.across);
+      ghost.finer = 0.0;
       push(k);
     }
   };

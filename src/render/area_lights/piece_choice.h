@@ -22,6 +22,7 @@ struct GhostOfArea {
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
   double squares = 0.0, flux_error = 0.0;
   int across = 1;  // pieces of the light
+  double finer = 0.0;  // the part of the ghost's light that is drawn with the next finer division (finer_than)
 };
 
 // The errors that a frame may make, and what they are relative to.
@@ -29,15 +30,22 @@ struct AreaBudget {
   double peak = 0.0;
   double squares = 0.0;  // summed over the frame, in squares of the peak
   double flux = 0.0;  // of all ghosts
+  double spot_squares = 0.0;  // of one spot, as `squares` (spot_level())
 };
 
 // Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.
 [[nodiscard]] bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
 
 // Predicts `squares` and `flux_error`. parts: the pieces of the light divided in two across.
-void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts, double peak);
+void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
+                    const AreaBudget& budget);
 
-// Sets `across` of all ghosts, so that together they stay within the budget with the fewest pieces.
+// The next finer division: pieces across.
+[[nodiscard]] int finer_than(int across);
+
+// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with the fewest pieces. The
+// last step is made in part, for just the error allowed: so a ghost fades from one division into the next as its light
+// moves, and does not jump.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
 }  // namespace contrejour::inline internal::area

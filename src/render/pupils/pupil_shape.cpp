@@ -6,12 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <span>
 
 #include "render/pupils/clearance_rays.h"
-#include "render/pupils/open_halves.h"
+#include "render/pupils/open_polygon.h"
 
 namespace contrejour::inline internal::pupils {
 namespace {
@@ -20,10 +18,9 @@ constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row 
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
-constexpr int kMaxGrids = 4;
-constexpr std::size_t kMaxInside = 12;  // rays of the interior that are kept,
-constexpr std::size_t kMaxBorder = 12;  // and rays of the border
-constexpr double kRowsPerLength = 0.25 * std::numbers::pi;  // border length for each pair of neighbours across it
+constexpr int kMinGrids = 2, kMaxGrids = 4;
+constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
+constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
 
 float length(std::array<float, 2> p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
 
@@ -71,8 +68,16 @@ class HalvedGrid {
   [[nodiscard]] float outside(std::size_t k) const { return outside_[traced(k)]; }
   [[nodiscard]] bool is_open(std::size_t k) const { return outside(k) <= 0.0F; }
   [[nodiscard]] int by(std::size_t k) const { return by_[traced(k)]; }
-  // The distance from the middle of the stop.
-  [[nodiscard]] float at_stop(int crossing, std::size_t k) const { return length(stop(crossing, traced(k))); }
+  // The same for linear interpolation: rays that fail, and those far outside, do not count more than others.
+  [[nodiscard]] double excess(std::size_t k) const { return std::min(static_cast<double>(outside(k)), 1.0); }
+  // The box, made symmetric where the grid is, in spite of rounding: then half of the next grid determines the other.
+  [[nodiscard]] Rectangle balanced(Rectangle box) const {
+    if (first_ > 0) {
+      box.high.y = std::max(-box.low.y, box.high.y);
+      box.low.y = -box.high.y;
+    }
+    return box;
+  }
 
  private:
   // The index of the results for a ray, or for its mirror image.
@@ -92,101 +97,127 @@ class HalvedGrid {
   std::array<int, kRays> by_{};
 };
 
-// A box around the rays that get through, or else around the one that is blocked least; empty where all fail.
+// A box around the open parts of all lines of the grid, or else around the ray that is blocked least; empty where all
+// fail.
 std::optional<Rectangle> next_box(const HalvedGrid& grid) {
   std::optional<Rectangle> hull;
-  std::size_t least_blocked = 0;
-  for (std::size_t k = 0; k < kRays; ++k) {
-    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
-    if (!grid.is_open(k)) continue;
-    const Vec2 at = grid.start(k);
+  const auto include = [&](Vec2 at) {
     if (!hull) hull = Rectangle{at, at};
     hull->low = {std::min(hull->low.x, at.x), std::min(hull->low.y, at.y)};
     hull->high = {std::max(hull->high.x, at.x), std::max(hull->high.y, at.y)};
-  }
-  if (!hull && std::isfinite(grid.outside(least_blocked)))
-    hull = Rectangle{grid.start(least_blocked), grid.start(least_blocked)};
-  if (hull) *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
-  return hull;
-}
-
-// At most that number of elements, evenly spaced in their order.
-template <class T>
-std::vector<T> thinned(const std::vector<T>& all, std::size_t max_count) {
-  if (all.size() <= max_count) return all;
-  std::vector<T> some;
-  for (std::size_t k = 0; k < max_count; ++k) some.push_back(all[(2 * k + 1) * all.size() / (2 * max_count)]);
-  return some;
-}
-
-// Finds pairs of neighbours of which one gets through and the other does not, and counts them by what blocks the other.
-void find_border(const HalvedGrid& grid, PupilShape& pupil) {
-  std::array<int, kMaxStopCrossings + 1> pairs{};
-  std::vector<BorderRay> border;
-  const auto count = [&](std::size_t a, std::size_t b) {
-    if (grid.is_open(a) == grid.is_open(b)) return;
-    const std::size_t open = grid.is_open(a) ? a : b, blocked = grid.is_open(a) ? b : a;
-    if (!std::isfinite(grid.outside(blocked))) return;
-    ++pairs[static_cast<std::size_t>(grid.by(blocked))];
-    border.push_back({grid.start(open), grid.by(blocked)});
   };
+  const auto include_crossing = [&](std::size_t a, std::size_t b) {
+    if (grid.is_open(a) == grid.is_open(b)) return;
+    const double from = grid.excess(a), to = grid.excess(b);
+    include(grid.start(a) + (grid.start(b) - grid.start(a)) * (from / (from - to)));
+  };
+  std::size_t least_blocked = 0;
   for (std::size_t k = 0; k < kRays; ++k) {
-    if (k % kSide + 1 < kSide) count(k, k + 1);
-    if (k + kSide < kRays) count(k, k + kSide);
+    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
+    if (grid.is_open(k)) include(grid.start(k));
+    if (k % kSide + 1 < kSide) include_crossing(k, k + 1);
+    if (k + kSide < kRays) include_crossing(k, k + kSide);
   }
-  const auto commonest = std::ranges::max_element(pairs);
-  pupil.bound = static_cast<int>(commonest - pairs.begin());
-  pupil.bound_fraction = static_cast<double>(*commonest) / std::max(std::accumulate(pairs.begin(), pairs.end(), 0), 1);
-  pupil.border_mm = kRowsPerLength * static_cast<double>(border.size()) * std::sqrt(grid.cell().x * grid.cell().y);
-  pupil.border = thinned(border, kMaxBorder);
+  if (!hull && std::isfinite(grid.outside(least_blocked))) include(grid.start(least_blocked));
+  if (!hull) return hull;
+  *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
+  return grid.balanced(*hull);
 }
 
-// The open area in halves of cells, where linear interpolation between rays says which part of each half is blocked.
-double open_area(const HalvedGrid& grid) {
-  const auto blocked = [&](std::size_t k) { return std::min(static_cast<double>(grid.outside(k)), 1.0); };
-  double halves = 0.0;
-  for (std::size_t k = 0; k + kSide < kRays; ++k) {
-    if (k % kSide + 1 == kSide) continue;
-    const double a = blocked(k), b = blocked(k + 1), c = blocked(k + kSide), d = blocked(k + kSide + 1);
-    halves += fraction_below_zero(a, b, d) + fraction_below_zero(a, d, c);
+// Collects the open parts of a grid's triangles by blocks of cells.
+class PupilSum {
+ public:
+  explicit PupilSum(const HalvedGrid& grid) : grid_(grid) {
+    for (std::size_t row = 0; row + 1 < kSide; ++row)
+      for (std::size_t column = 0; column + 1 < kSide; ++column)
+        add_cell(row * kSide + column, (row / kBlockCells) * kBlocks + column / kBlockCells);
   }
-  return 0.5 * halves * grid.cell().x * grid.cell().y;
-}
 
-PupilShape pupil_of(const HalvedGrid& grid, int open) {
-  PupilShape pupil;
-  pupil.is_open = true;
-  Vec2 mean;
-  std::vector<Vec2> inside_mm;
-  for (std::size_t k = 0; k < kRays; ++k) {
-    if (!grid.is_open(k)) continue;
-    mean = mean + grid.start(k) * (1.0 / open);
-    inside_mm.push_back(grid.start(k));
+  [[nodiscard]] PupilShape pupil() const {
+    PupilShape pupil;
+    pupil.is_open = true;
+    AreaMoments all;
+    for (const Block& block : blocks_) {
+      all.add(block.open, 1.0);
+      for (const Border& border : block.borders) pupil.border_mm += border.length_mm;
+    }
+    pupil.area_mm2 = all.area_mm2;
+    if (!(all.area_mm2 > 0.0)) return pupil;
+    pupil.middle_mm = all.centroid();
+    pupil.covariance = all.covariance();
+    for (const Block& block : blocks_) {
+      if (block.open.area_mm2 > 0.0)
+        pupil.inside.push_back({block.open.centroid(), block.open.area_mm2 / all.area_mm2});
+      for (std::size_t bound = 0; bound < block.borders.size(); ++bound) {
+        const Border& border = block.borders[bound];
+        if (!(border.length_mm > 0.0)) continue;
+        pupil.bound_fractions[bound] += border.length_mm / pupil.border_mm;
+        pupil.border.push_back({border.sum * (1.0 / border.length_mm), static_cast<int>(bound), border.length_mm});
+      }
+    }
+    return pupil;
   }
-  pupil.inside_mm = thinned(inside_mm, kMaxInside);
-  const Vec2 cell = grid.cell();
-  pupil.covariance = {{cell.x * cell.x / 12.0, 0.0}, {0.0, cell.y * cell.y / 12.0}};
-  pupil.area_mm2 = open_area(grid);
-  find_border(grid, pupil);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < kRays; ++k) {
-    if (!grid.is_open(k)) continue;
-    const Vec2 d = grid.start(k) - mean;
-    pupil.covariance = pupil.covariance + LinearMap{d * (d.x / open), d * (d.y / open)};
-    const double from_middle = pupil.is_whole() ? grid.at_stop(pupil.bound, k) : length(d);
-    if (!(from_middle < nearest)) continue;
-    nearest = from_middle;
-    pupil.middle_mm = grid.start(k);
+
+ private:
+  struct Border {
+    double length_mm = 0.0;
+    Vec2 sum;  // of the positions, by length
+  };
+  struct Block {
+    AreaMoments open;
+    std::array<Border, kMaxStopCrossings + 1> borders{};  // by what bounds them
+  };
+
+  // A cell is halved along both diagonals, so that a pupil and its mirror image measure the same.
+  void add_cell(std::size_t first, std::size_t block) {
+    const std::array<std::size_t, 4> corner{first, first + 1, first + kSide + 1, first + kSide};
+    const auto open = std::ranges::count_if(corner, [&](std::size_t k) { return grid_.is_open(k); });
+    for (std::size_t k = 0; open > 0 && k < 4; ++k)
+      add_triangle({corner[k], corner[(k + 1) % 4], corner[(k + 2) % 4]}, blocks_[block]);
   }
-  return pupil;
-}
+
+  void add_triangle(const std::array<std::size_t, 3>& vertex, Block& block) {
+    constexpr double kWeight = 0.5;  // each point of a cell lies in two triangles
+    std::array<Vec2, 3> at;
+    std::array<double, 3> outside{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] = grid_.start(vertex[k]);
+      outside[k] = grid_.excess(vertex[k]);
+    }
+    const OpenPolygon open = open_polygon(at, outside);
+    block.open.add(open.moments, kWeight);
+    if (open.has_border) add_border(open, vertex, kWeight, block);
+  }
+
+  // A border belongs to what blocks the vertices beyond it, to each as much as it is the nearer one.
+  void add_border(const OpenPolygon& open, const std::array<std::size_t, 3>& vertex, double weight, Block& block) {
+    double all = 0.0;
+    const auto nearness = [&](std::size_t k) {
+      const double outside = grid_.outside(k);
+      return outside > 0.0 && std::isfinite(outside) ? 1.0 / outside : 0.0;
+    };
+    for (const std::size_t k : vertex) all += nearness(k);
+    if (!(all > 0.0)) return;  // the rays beyond it fail
+    const double length_mm = weight * length(open.border[1] - open.border[0]);
+    for (const std::size_t k : vertex) {
+      if (!(nearness(k) > 0.0)) continue;
+      Border& border = block.borders[static_cast<std::size_t>(grid_.by(k))];
+      const double own_mm = length_mm * nearness(k) / all;
+      border.length_mm += own_mm;
+      border.sum = border.sum + (open.border[0] + open.border[1]) * (0.5 * own_mm);
+    }
+  }
+
+  const HalvedGrid& grid_;
+  std::array<Block, kBlocks * kBlocks> blocks_{};
+};
 
 PupilShape in_lens_frame(PupilShape pupil, const LightFrame& light) {
   const LinearMap rotation{light.to_lens_frame({1.0, 0.0}), light.to_lens_frame({0.0, 1.0})};
   pupil.middle_mm = rotation(pupil.middle_mm);
   pupil.covariance = rotation * pupil.covariance * transposed(rotation);
-  for (Vec2& inside_mm : pupil.inside_mm) inside_mm = rotation(inside_mm);
-  for (BorderRay& ray : pupil.border) ray.start_mm = rotation(ray.start_mm);
+  for (InnerPoint& point : pupil.inside) point.start_mm = rotation(point.start_mm);
+  for (BorderPoint& point : pupil.border) point.start_mm = rotation(point.start_mm);
   return pupil;
 }
 
@@ -197,13 +228,13 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
   HalvedGrid grid(steps, ghost, light, window);
   std::optional<Rectangle> box = grid.box();
   int open = 0;
-  for (int k = 0; k < kMaxGrids && box && open < kEnough; ++k) {
+  for (int k = 0; k < kMaxGrids && box && (k < kMinGrids || open < kEnough); ++k) {
     grid.trace(*box);
     open = 0;
     for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
     box = next_box(grid);
   }
-  if (open > 0) return in_lens_frame(pupil_of(grid, open), light);
+  if (open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
   std::size_t least_blocked = 0;
   for (std::size_t k = 0; k < kRays; ++k)
     if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;

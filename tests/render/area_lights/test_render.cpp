@@ -189,6 +189,26 @@ TEST_CASE("every method blurs alike") {
     CHECK(psnr_db(truth, test::flare_of(method, lens, {&light, 1}, settings).image) > 40.0);
 }
 
+TEST_CASE("a light with a size that moves steadily has a flare that does, though a ghost in focus is a spot") {
+  const LensState lens = test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
+  test::Settings settings = test::green(frame_on_sensor(lens, 160, 90));
+  std::vector<Image> frames;
+  for (int k = 0; k < 12; ++k) {
+    Light light = test::light_at(lens, settings.frame, Vec2{0.70, 0.33} + Vec2{0.1 / 160, 0.03 / 90} * k);
+    light.radius_rad = kSunRadius_rad;
+    frames.push_back(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
+  }
+  const double peak = quantile_of_samples(frames.front(), 0.999);
+  for (std::size_t k = 2; k < frames.size(); ++k) {
+    double squares = 0.0;
+    for (std::size_t j = 0; j < frames[k].pixels.size(); ++j) {
+      const double off = frames[k].pixels[j] - 2.0 * frames[k - 1].pixels[j] + frames[k - 2].pixels[j];
+      squares += off * off;
+    }
+    CHECK(std::sqrt(squares / static_cast<double>(frames[k].pixels.size())) < 0.003 * peak);
+  }
+}
+
 TEST_CASE("size zero is the point, bit for bit; a very small disc is nearly that") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0});
   test::Settings settings = test::green(frame_on_sensor(lens, 120, 80));
