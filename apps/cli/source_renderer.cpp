@@ -3,15 +3,28 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "cli/console.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
+namespace {
+
+Device device_of(const params::Values& values) {
+  const std::string name = *values.text("device");
+  return name == "vulkan" ? Device::Vulkan : name == "auto" ? Device::Auto : Device::Cpu;
+}
+
+}  // namespace
 
 Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source) {
   if (const auto* flare = std::get_if<MeasuredFlare>(&source)) return SourceRenderer(*flare);
-  auto renderer = Renderer::create(params::method_options(values));
+  auto renderer = Renderer::create(params::method_options(values), device_of(values));
   if (!renderer) return tl::unexpected(renderer.error());
   if (auto set = renderer->set_lens(std::get<LensState>(source)); !set) return tl::unexpected(set.error());
+  if (!renderer->device_note().empty())
+    print_warnings({fmt::format("the CPU renders: {}", renderer->device_note())});
   return SourceRenderer(std::move(*renderer));
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contrejour/expert/check_lens.h"
+#include "render/device/kept_device.h"
 #include "render/planning/frame_memory.h"
 #include "render/session/registry.h"
 #include "render/session/render_frame.h"
@@ -29,6 +30,7 @@ struct Renderer::State {
   MethodOptions method;
   std::optional<LensState> lens = std::nullopt;
   RenderCache cache = {};
+  std::string device_note = {};
 
   [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
                                      const FrameSettings& settings, const Context& context) {
@@ -55,10 +57,24 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Result<Renderer> Renderer::create(MethodOptions method, Device /*device*/) {
+Result<Renderer> Renderer::create(MethodOptions method, Device device, const std::string& which) {
   if (const auto known = known_method(method.name()); !known) return tl::unexpected(known.error());
-  return Renderer(std::make_unique<State>(State{std::move(method)}));
+  auto state = std::make_unique<State>(State{std::move(method)});
+  if (device != Device::Cpu) {
+    auto opened = open_frame_device({.which = which});
+    if (!opened && device == Device::Vulkan) return tl::unexpected(opened.error());
+    if (opened) {
+      KeptDevice& kept = *state->cache.section<KeptDevice>({});
+      kept.device = std::move(*opened);
+      kept.is_required = device == Device::Vulkan;
+    } else {
+      state->device_note = opened.error().message;
+    }
+  }
+  return Renderer(std::move(state));
 }
+
+const std::string& Renderer::device_note() const { return state_->device_note; }
 
 Result<void> Renderer::set_lens(LensState lens) {
   if (auto good = check_lens(lens); !good) return tl::unexpected(good.error());
