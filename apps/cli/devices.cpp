@@ -30,13 +30,13 @@ Json device_json(const DeviceInfo& device) {
 }
 
 std::string device_text(const DeviceInfo& device) {
-  return fmt::format("{}  {}\n   {}, {}\n   memory {:.0f} MiB, buffers to {:.0f} MiB, shared {} KiB, {} groups an axis, "
-                     "{} invocations a group, {} a subgroup\n   {}\n",
-                     device.index, device.name, device.kind, device.driver,
-                     static_cast<double>(device.memory_bytes) / kMiB,
-                     static_cast<double>(device.storage_range_bytes) / kMiB, device.shared_memory_bytes / 1024,
-                     device.groups_an_axis, device.group_size, device.subgroup_size,
-                     device.is_usable ? "usable: --device vulkan" : "unusable: " + device.reason);
+  return fmt::format(
+      "{}  {}\n   {}, {}\n   memory {:.0f} MiB, buffers to {:.0f} MiB, shared {} KiB, {} groups an axis, "
+      "{} invocations a group, {} a subgroup\n   {}\n",
+      device.index, device.name, device.kind, device.driver, static_cast<double>(device.memory_bytes) / kMiB,
+      static_cast<double>(device.storage_range_bytes) / kMiB, device.shared_memory_bytes / 1024, device.groups_an_axis,
+      device.group_size, device.subgroup_size,
+      device.is_usable ? "usable: --device vulkan" : "unusable: " + device.reason);
 }
 
 int print_devices(bool as_json) {
@@ -47,8 +47,7 @@ int print_devices(bool as_json) {
     print_json(all);
     return kDone;
   }
-  if (devices.empty())
-    print_summary("no device with Vulkan was found: frames are rendered by the CPU (docs/gpu.md)\n");
+  if (devices.empty()) print_summary("no device with Vulkan was found: frames are rendered by the CPU (docs/gpu.md)\n");
   for (const DeviceInfo& device : devices) print_summary(device_text(device));
   return kDone;
 }

@@ -23,8 +23,7 @@ Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSour
   auto renderer = Renderer::create(params::method_options(values), device_of(values));
   if (!renderer) return tl::unexpected(renderer.error());
   if (auto set = renderer->set_lens(std::get<LensState>(source)); !set) return tl::unexpected(set.error());
-  if (!renderer->device_note().empty())
-    print_warnings({fmt::format("the CPU renders: {}", renderer->device_note())});
+  if (!renderer->device_note().empty()) print_warnings({fmt::format("the CPU renders: {}", renderer->device_note())});
   return SourceRenderer(std::move(*renderer));
 }
 

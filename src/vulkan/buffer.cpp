@@ -29,13 +29,16 @@ std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties& memory, std:
   throw vk::OutOfDeviceMemoryError("no memory of the device is fit for a buffer");
 }
 
-constexpr std::uint64_t kSmallest = 256;  // bytes
+// Buffers grow by whole steps, so that frames of about the same size use the same buffers. Larger ones are as large as
+// they are, since a device limits how far a shader may read.
+constexpr std::uint64_t kStep = 64U << 10U, kStepsUpTo = 64U << 20U;  // bytes
 
 }  // namespace
 
 bool Buffer::need(const vk::raii::Device& device, const vk::PhysicalDeviceMemoryProperties& memory,
                   std::uint64_t bytes) {
-  bytes = std::max(bytes, kSmallest);
+  bytes = std::max<std::uint64_t>(bytes, 1);
+  if (bytes < kStepsUpTo) bytes = (bytes + kStep - 1) / kStep * kStep;
   if (bytes <= bytes_) return false;
   // The old memory is freed first: both together may not fit.
   buffer_ = nullptr;

@@ -74,8 +74,7 @@ void DeviceContext::make_pipelines() {
   cache_ = device_.createPipelineCache(vk::PipelineCacheCreateInfo({}, kept.size(), kept.data()));
   for (std::size_t k = 0; k < kShaders; ++k) {
     const auto code = code_of(static_cast<Shader>(k));
-    const vk::raii::ShaderModule module(device_,
-                                        vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
+    const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
     pipelines_.push_back(
         device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_)));
@@ -125,9 +124,9 @@ void DeviceContext::clear(Slot slot, std::uint64_t first_byte, std::uint64_t byt
 void DeviceContext::barrier() {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
-  const vk::MemoryBarrier all(Access::eShaderWrite | Access::eTransferWrite,
-                              Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
-                                  Access::eTransferWrite | Access::eHostRead);
+  const vk::MemoryBarrier all(
+      Access::eShaderWrite | Access::eTransferWrite,
+      Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite | Access::eHostRead);
   const auto work = Stage::eComputeShader | Stage::eTransfer;
   commands_.front().pipelineBarrier(work, work | Stage::eHost, {}, all, {}, {});
 }

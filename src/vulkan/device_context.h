@@ -39,8 +39,9 @@ enum class Slot : std::uint8_t {
   LargeCorners,
   Blocks,
   Doubles,
+  Vertices,
 };
-inline constexpr std::size_t kSlots = 13;
+inline constexpr std::size_t kSlots = 14;
 
 struct GroupCount {
   std::uint32_t x = 1, y = 1;

@@ -62,8 +62,10 @@ GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJo
   if (most > 0.0) fixed_point_ = kFixedPoint / most;
   const std::uint64_t range = info.storage_range_bytes;
   limits_.rays = std::min(limits_.rays, range / std::max(kRayBytes, kCrossingBytes));
-  limits_.large_polygons = static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_polygons, range / kLargeBytes));
-  limits_.large_corners = static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_corners, range / kCornerBytes));
+  limits_.large_polygons =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_polygons, range / kLargeBytes));
+  limits_.large_corners =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_corners, range / kCornerBytes));
 }
 
 int GridFrame::rows_a_band() const {
@@ -133,7 +135,14 @@ void GridFrame::draw_large(Shader shader, std::size_t any) {
                     static_cast<std::uint32_t>((p.height + kTile - 1) / kTile)});
 }
 
+void GridFrame::share_vertices(std::size_t first, std::size_t end) {
+  for (std::size_t k = first; k < end; ++k)
+    device_.dispatch(Shader::Vertices, grids_[k], groups_of(ray_count(job_.grids[k]), info_));
+  device_.barrier();
+}
+
 void GridFrame::draw_cells(std::size_t first, std::size_t end) {
+  share_vertices(first, end);
   for (std::size_t k = first; k < end; ++k) {
     const std::uint64_t cells = grids_[k].side - 1;
     device_.dispatch(Shader::Cells, grids_[k], groups_of(cells * cells, info_));
@@ -168,6 +177,7 @@ void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
     blocks += BlockLevels(grids_[k].side - 1, 0).count();
   }
   device_.barrier();
+  share_vertices(first, end);
   merge(first, end);
   const int steps = std::get<TiledOptions>(job_.style).merge_steps;
   for (std::size_t k = first; k < end; ++k) {
@@ -223,6 +233,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   for (const DeviceGrid& grid : job_.grids) most_rays = std::max(most_rays, ray_count(grid));
   device_.need(Slot::Rays, kRayBytes * most_rays);
   device_.need(Slot::Crossings, kCrossingBytes * most_rays);
+  device_.need(Slot::Vertices, kVertexBytes * most_rays);
   if (std::holds_alternative<TiledOptions>(job_.style)) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
 
   device_.begin();
@@ -239,8 +250,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
     if (submitted < limits_.rays_a_submission || end == job_.grids.size()) continue;
     device_.finish();
     if (context.cancelled()) return true;
-    if (context.progress)
-      context.progress(static_cast<double>(end) / static_cast<double>(job_.grids.size()));
+    if (context.progress) context.progress(static_cast<double>(end) / static_cast<double>(job_.grids.size()));
     device_.begin();
     submitted = 0;
   }
@@ -261,7 +271,8 @@ DeviceWork GridFrame::draw(Image& image, const Context& context) {
       row += band.frame.height;
       continue;
     }
-    if (batch_rays == 1) throw vk::OutOfDeviceMemoryError("the polygons of one grid do not fit into the device's memory");
+    if (batch_rays == 1)
+      throw vk::OutOfDeviceMemoryError("the polygons of one grid do not fit into the device's memory");
     batch_rays = std::max<std::uint64_t>(batch_rays / 4, 1);
   }
   return work_;

@@ -41,6 +41,7 @@ class GridFrame {
   void trace(std::size_t first, std::size_t end);
   void draw_cells(std::size_t first, std::size_t end);
   void draw_primitives(std::size_t first, std::size_t end);
+  void share_vertices(std::size_t first, std::size_t end);
   void merge(std::size_t first, std::size_t end);
   void draw_large(Shader shader, std::size_t any);
   [[nodiscard]] std::uint32_t style_flags() const;

@@ -12,7 +12,7 @@ namespace contrejour::inline internal::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr std::uint32_t kBuffersAShader = 13;  // bindings.glsl
+constexpr std::uint32_t kBuffersAShader = 14;  // bindings.glsl
 constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint64_t kSmallestRange = std::uint64_t{64} << 20U;
 
@@ -72,7 +72,8 @@ DeviceInfo info_of(const vk::raii::PhysicalDevice& device, int index) {
       info.memory_bytes = std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[k].size);
   info.storage_range_bytes = limits.maxStorageBufferRange;
   info.shared_memory_bytes = limits.maxComputeSharedMemorySize;
-  info.groups_an_axis = *std::min_element(limits.maxComputeWorkGroupCount.begin(), limits.maxComputeWorkGroupCount.end());
+  info.groups_an_axis =
+      *std::min_element(limits.maxComputeWorkGroupCount.begin(), limits.maxComputeWorkGroupCount.end());
   info.group_size = limits.maxComputeWorkGroupInvocations;
   info.subgroup_size = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
   info.has_doubles = device.getFeatures().shaderFloat64 != VK_FALSE;
@@ -80,8 +81,9 @@ DeviceInfo info_of(const vk::raii::PhysicalDevice& device, int index) {
 }
 
 bool has_layer(const vk::raii::Context& loader, std::string_view name) {
-  return std::ranges::any_of(loader.enumerateInstanceLayerProperties(),
-                             [&](const vk::LayerProperties& layer) { return std::string_view(layer.layerName) == name; });
+  return std::ranges::any_of(loader.enumerateInstanceLayerProperties(), [&](const vk::LayerProperties& layer) {
+    return std::string_view(layer.layerName) == name;
+  });
 }
 
 }  // namespace
@@ -120,9 +122,9 @@ Result<std::unique_ptr<Instance>> Instance::open(const OnMessage& on_message) {
   try {
     return std::unique_ptr<Instance>(new Instance(on_message));
   } catch (const std::exception& error) {
-    return failure(ErrorCode::Unsupported,
-                   fmt::format("there is no Vulkan here ({}): install a driver for the GPU and the Vulkan loader",
-                               error.what()));
+    return failure(
+        ErrorCode::Unsupported,
+        fmt::format("there is no Vulkan here ({}): install a driver for the GPU and the Vulkan loader", error.what()));
   }
 }
 

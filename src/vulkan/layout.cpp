@@ -35,18 +35,32 @@ std::array<double, kStartReals> start_numbers(const DeviceGrid& grid, const Pixe
 }
 
 std::array<double, kStepReals> step_numbers(const PacketStep& s) {
-  return {s.gap_mm,           s.curvature_per_mm, s.inverse_semi_diameter_squared,
-          s.eta,              s.direction,        s.axis.x,
-          s.axis.y,           s.axis.z,           s.offset_mm.x,
-          s.offset_mm.y,      s.rim.centre_mm.x,  s.rim.centre_mm.y,
-          s.rim.u_per_mm.x,   s.rim.u_per_mm.y,   s.rim.v_per_mm.x,
-          s.rim.v_per_mm.y,   s.absorption_per_mm, s.grating_shift.x,
-          s.grating_shift.y,  s.efficiency};
+  return {s.gap_mm,
+          s.curvature_per_mm,
+          s.inverse_semi_diameter_squared,
+          s.eta,
+          s.direction,
+          s.axis.x,
+          s.axis.y,
+          s.axis.z,
+          s.offset_mm.x,
+          s.offset_mm.y,
+          s.rim.centre_mm.x,
+          s.rim.centre_mm.y,
+          s.rim.u_per_mm.x,
+          s.rim.u_per_mm.y,
+          s.rim.v_per_mm.x,
+          s.rim.v_per_mm.y,
+          s.absorption_per_mm,
+          s.grating_shift.x,
+          s.grating_shift.y,
+          s.efficiency};
 }
 
 std::vector<double> shape_numbers(const ShapeConstants& s) {
-  std::vector<double> out{s.curvature,    s.curvature_x,  s.quadratic, s.quadratic_x, s.aperture_mm, s.per_aperture_squared,
-                          s.cos_rotation, s.sin_rotation, s.start_x,   s.start_y,     s.start_z};
+  std::vector<double> out{
+      s.curvature,    s.curvature_x,  s.quadratic, s.quadratic_x, s.aperture_mm, s.per_aperture_squared,
+      s.cos_rotation, s.sin_rotation, s.start_x,   s.start_y,     s.start_z};
   out.insert(out.end(), s.even.begin(), s.even.begin() + s.even_terms);
   out.insert(out.end(), s.odd.begin(), s.odd.begin() + s.odd_terms);
   return out;
@@ -110,9 +124,9 @@ std::vector<float> bound_numbers(const IrisShape& iris) {
   std::vector<float> out;
   for (const IrisBound& bound : iris.bounds()) {
     const bool straight = bound.straight();
-    for (const double v : {bound.normal.x, bound.normal.y, std::max(bound.apothem, -1e30), straight ? 1.0 : 0.0,
-                           bound.centre.x, bound.centre.y, straight ? 0.0 : bound.radius,
-                           straight ? 0.0 : bound.power_at_axis()})
+    for (const double v :
+         {bound.normal.x, bound.normal.y, std::max(bound.apothem, -1e30), straight ? 1.0 : 0.0, bound.centre.x,
+          bound.centre.y, straight ? 0.0 : bound.radius, straight ? 0.0 : bound.power_at_axis()})
       out.push_back(static_cast<float>(v));
   }
   return out;

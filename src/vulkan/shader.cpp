@@ -12,6 +12,7 @@ namespace {
 #include "vulkan/resolve.inc"
 #include "vulkan/trace.inc"
 #include "vulkan/trace_double.inc"
+#include "vulkan/vertices.inc"
 #include "vulkan/widen.inc"
 
 }  // namespace
@@ -27,6 +28,7 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::Blocks: return kBlocksCode;
     case Shader::Primitives: return kPrimitivesCode;
     case Shader::LargePrimitives: return kLargePrimitivesCode;
+    case Shader::Vertices: return kVerticesCode;
   }
   return {};
 }

@@ -18,8 +18,9 @@ enum class Shader : std::uint8_t {
   Blocks,
   Primitives,
   LargePrimitives,
+  Vertices,
 };
-inline constexpr std::size_t kShaders = 9;
+inline constexpr std::size_t kShaders = 10;
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);
 

@@ -143,7 +143,8 @@ std::string lower(std::string text) {
 }
 
 bool is_index(const std::string& text) {
-  return !text.empty() && text.size() < 4 && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return !text.empty() && text.size() < 4 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 std::string names_of(const std::vector<DeviceInfo>& all) {
@@ -155,11 +156,14 @@ std::string names_of(const std::vector<DeviceInfo>& all) {
 
 // The device that was asked for, or else the first usable one, GPUs before processors.
 Result<DeviceInfo> chosen(const std::vector<DeviceInfo>& all, const std::string& which) {
-  if (all.empty())
-    return failure(ErrorCode::Unsupported, "Vulkan lists no device: install a driver for the GPU");
+  if (all.empty()) return failure(ErrorCode::Unsupported, "Vulkan lists no device: install a driver for the GPU");
   if (which.empty()) {
     const auto rank = [](const DeviceInfo& info) {
-      return !info.is_usable ? 9 : info.kind == "discrete GPU" ? 0 : info.kind == "integrated GPU" ? 1 : info.kind == "processor" ? 3 : 2;
+      return !info.is_usable                 ? 9
+             : info.kind == "discrete GPU"   ? 0
+             : info.kind == "integrated GPU" ? 1
+             : info.kind == "processor"      ? 3
+                                             : 2;
     };
     const DeviceInfo& best = *std::ranges::min_element(all, {}, rank);
     if (best.is_usable) return best;
@@ -170,7 +174,8 @@ Result<DeviceInfo> chosen(const std::vector<DeviceInfo>& all, const std::string&
   };
   const auto found = std::ranges::find_if(all, matches);
   if (found == all.end())
-    return failure(ErrorCode::Unsupported, fmt::format("there is no device '{}'; choose one of {}", which, names_of(all)));
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("there is no device '{}'; choose one of {}", which, names_of(all)));
   if (!found->is_usable)
     return failure(ErrorCode::Unsupported, fmt::format("device {} is unusable: {}", found->name, found->reason));
   return *found;
@@ -196,7 +201,8 @@ Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& opti
   try {
     all = (*instance)->devices();
   } catch (const std::exception& error) {
-    return failure(ErrorCode::Unsupported, fmt::format("the Vulkan driver fails to describe its devices: {}", error.what()));
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("the Vulkan driver fails to describe its devices: {}", error.what()));
   }
   const char* const wanted = std::getenv("CONTREJOUR_DEVICE");
   const auto info = vulkan::chosen(all, !options.which.empty() ? options.which : wanted != nullptr ? wanted : "");

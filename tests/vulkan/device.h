@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device of the tests, with the validation layer on: any message fails. Where there is no device, tests are skipped.
+// The device of the tests, with the validation layer on: any message fails. Where there is no device, tests are
+// skipped.
 #pragma once
 
 #include <memory>

@@ -29,8 +29,10 @@ struct Deviation {
       const auto apart = [k](const std::vector<float>& a, const std::vector<float>& b) {
         return std::abs(static_cast<double>(a[k]) - b[k]);
       };
-      sensor_mm = std::max({sensor_mm, apart(exact.sensor_x_mm, got.sensor_x_mm), apart(exact.sensor_y_mm, got.sensor_y_mm)});
-      transmission = std::max(transmission, apart(exact.transmission, got.transmission) / std::max(exact.transmission[k], 1e-9F));
+      sensor_mm =
+          std::max({sensor_mm, apart(exact.sensor_x_mm, got.sensor_x_mm), apart(exact.sensor_y_mm, got.sensor_y_mm)});
+      transmission =
+          std::max(transmission, apart(exact.transmission, got.transmission) / std::max(exact.transmission[k], 1e-9F));
       height = std::max(height, apart(exact.relative_height, got.relative_height));
       for (std::size_t c = 0; c < static_cast<std::size_t>(exact.stop_crossings()); ++c)
         stop = std::max({stop, apart(exact.stop_x[c], got.stop_x[c]), apart(exact.stop_y[c], got.stop_y[c])});
@@ -82,12 +84,21 @@ TEST_CASE("rays through the bundled lenses arrive as on the CPU") {
       trace_both(*device, *lens, ghost, light, lambda_nm, PacketPrecision::Double, in_double);
     }
   }
-  MESSAGE("float: " << in_float.rays << " rays, sensor " << in_float.sensor_mm << " mm, transmission "
-                    << in_float.transmission << ", height " << in_float.height << ", stop " << in_float.stop << ", "
-                    << in_float.disagreeing << " disagree");
-  MESSAGE("double: " << in_double.rays << " rays, sensor " << in_double.sensor_mm << " mm, transmission "
-                     << in_double.transmission << ", height " << in_double.height << ", stop " << in_double.stop << ", "
-                     << in_double.disagreeing << " disagree");
+  INFO("float: ", in_float.rays, " rays, sensor ", in_float.sensor_mm, " mm, transmission ", in_float.transmission,
+       ", height ", in_float.height, ", stop ", in_float.stop, ", ", in_float.disagreeing, " disagree");
+  INFO("double: ", in_double.rays, " rays, sensor ", in_double.sensor_mm, " mm, transmission ", in_double.transmission,
+       ", height ", in_double.height, ", stop ", in_double.stop, ", ", in_double.disagreeing, " disagree");
   CHECK(in_float.rays > 10000);
+  CHECK(in_double.rays > 10000);
+  CHECK(in_float.sensor_mm < 1e-3);
+  CHECK(in_float.transmission < 1e-4);
+  CHECK(in_float.height < 1e-4);
+  CHECK(in_float.stop < 1e-4);
+  CHECK(in_double.sensor_mm < 1e-4);  // a float's resolution of the farthest points
+  CHECK(in_double.transmission < 1e-5);
+  CHECK(in_double.height < 1e-5);
+  CHECK(in_double.stop < 1e-5);
+  CHECK(in_float.disagreeing < in_float.rays / 1000);  // rays that graze a surface
+  CHECK(in_double.disagreeing < in_double.rays / 1000);
   test::check_no_messages();
 }

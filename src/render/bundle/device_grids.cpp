@@ -31,16 +31,17 @@ FoundGrids find_grids(const Item& item, const Frame& frame, const GridSource& so
     PacketPath path(pupil->path, tables, {{0.0, 0.0, pupil->plane_z_mm}, item.light->source});
     path.start_from(box.low);
     const Rgb gain = item.adjustment->tinted(pass.gain);
-    found.grids.push_back({.path = std::move(path),
-                           .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
-                           .side = side,
-                           .precision = precision,
-                           .irradiance = item.light->source.shared_flux() * pupil->stop.level(),
-                           .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
-                           .shift_mm = item.adjustment->shift_mm});
+    found.grids.push_back(
+        {.path = std::move(path),
+         .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
+         .side = side,
+         .precision = precision,
+         .irradiance = item.light->source.shared_flux() * pupil->stop.level(),
+         .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
+         .shift_mm = item.adjustment->shift_mm});
     grid.counts().rays += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
-    grid.counts().surface_hits += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) *
-                                  pupil->path.steps.size();
+    grid.counts().surface_hits +=
+        static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) * pupil->path.steps.size();
   }
   found.counts = grid.counts();
   return found;

@@ -19,8 +19,7 @@ void DeviceFrame::add(std::size_t layer, std::vector<DeviceGrid> grids) {
 
 Context DeviceFrame::part(const Context& whole, Part of) {
   Context part = whole;
-  if (whole.progress)
-    part.progress = [&whole, of](double done) { whole.progress(of.from + (of.to - of.from) * done); };
+  if (whole.progress) part.progress = [&whole, of](double done) { whole.progress(of.from + (of.to - of.from) * done); };
   return part;
 }
 

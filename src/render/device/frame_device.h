@@ -26,13 +26,13 @@ namespace contrejour::inline internal {
 
 // The rays of one ghost, light and wavelength over a rectangle of the entrance plane.
 struct DeviceGrid {
-  PacketPath path;                     // begins at the rectangle's lower corner; its tables outlive the grid
-  Vec2 step_mm;                        // between neighbouring rays
-  int side = 0;                        // rays a side
+  PacketPath path;  // begins at the rectangle's lower corner; its tables outlive the grid
+  Vec2 step_mm;  // between neighbouring rays
+  int side = 0;  // rays a side
   PacketPrecision precision = PacketPrecision::Float;
-  double irradiance = 1.0;             // a ray of transmission 1 carries the area of a cell times this
-  std::array<float, 3> gain{};         // from flux to pixel values
-  Vec2 shift_mm{};                  // of the ghost, on the sensor
+  double irradiance = 1.0;  // a ray of transmission 1 carries the area of a cell times this
+  std::array<float, 3> gain{};  // from flux to pixel values
+  Vec2 shift_mm{};  // of the ghost, on the sensor
 };
 
 // What is drawn from the grids: the cells as `bundle` does, or primitives as `tiled` does.

@@ -65,14 +65,14 @@ FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
   PacketPath packets(path, tables, {{0.0, 0.0, window.z_mm}, light});
   packets.start_from(box.low);
   const Rgb gain = item.adjustment->tinted(item.pass.gain);
-  found.grid = DeviceGrid{
-      .path = std::move(packets),
-      .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
-      .side = side,
-      .precision = precision_for(path, tables, light, window.z_mm, box, side, from.pixel_pitch_mm),
-      .irradiance = light.shared_flux() * stop.level(),
-      .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
-      .shift_mm = item.adjustment->shift_mm};
+  found.grid =
+      DeviceGrid{.path = std::move(packets),
+                 .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
+                 .side = side,
+                 .precision = precision_for(path, tables, light, window.z_mm, box, side, from.pixel_pitch_mm),
+                 .irradiance = light.shared_flux() * stop.level(),
+                 .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
+                 .shift_mm = item.adjustment->shift_mm};
   return found;
 }
 

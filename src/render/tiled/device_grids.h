@@ -15,8 +15,7 @@ namespace contrejour::inline internal::tiled {
 [[nodiscard]] int side_of_grid(const GridOptions& grid, const LensState& lens, const Rectangle& sensor_mm);
 
 // What a device cannot do of a frame, in words for a report; empty: it can draw the frame.
-[[nodiscard]] std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan,
-                                       const LensState& lens);
+[[nodiscard]] std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens);
 
 // Errors: those of the device; Cancelled.
 [[nodiscard]] Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options,

@@ -16,6 +16,7 @@ layout(std430, set = 0, binding = 8) readonly buffer Bounds { float bounds[]; };
 layout(std430, set = 0, binding = 9) buffer Large { uint large[]; };              // 16 words a polygon
 layout(std430, set = 0, binding = 10) buffer LargeCorners { vec2 large_corners[]; };
 layout(std430, set = 0, binding = 11) buffer Blocks { float blocks[]; };  // of merged cells
+layout(std430, set = 0, binding = 13) buffer Vertices { vec2 vertices[]; };  // by ray: irradiance, blocked
 #ifdef DOUBLE
 layout(std430, set = 0, binding = 12) readonly buffer Doubles { double doubles[]; };  // of paths, in double
 #define real double
@@ -50,6 +51,8 @@ p;
 #define COUNT_OVERFLOWS 3
 
 bool failed(vec4 ray) { return ray.w >= 0.5 * FAILED; }
+float irradiance_at(uint ray) { return vertices[ray].x; }  // 0 where the map is not smooth
+bool passes(uint ray) { return vertices[ray].y <= 0.0; }
 vec2 crossing(uint ray, uint c) { return crossings[ray * MAX_CROSSINGS + c]; }
 
 // The number of an invocation in a dispatch of one or more rows of groups.

@@ -5,7 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
-#include "iris.glsl"
 #include "quad.glsl"
 
 #define BLOCK_DARK -1.0
@@ -13,7 +12,7 @@ layout(local_size_x = 64) in;
 
 float cell_value(uint ix, uint iy) {
   uvec4 v = corners_of(1u, ix, iy);
-  bool lit = blocked(v.x) <= 0.0 || blocked(v.y) <= 0.0 || blocked(v.z) <= 0.0 || blocked(v.w) <= 0.0;
+  bool lit = passes(v.x) || passes(v.y) || passes(v.z) || passes(v.w);
   if (!lit) return BLOCK_DARK;
   if (any_failed(v) || !is_convex(v)) return BLOCK_PARTED;
   return p.triangle_weight / 3.0 * (2.0 * (rays[v.x].z + rays[v.z].z) + rays[v.y].z + rays[v.w].z);

@@ -10,7 +10,6 @@ layout(local_size_x = 64) in;
 #include "polygon.glsl"
 #include "coverage.glsl"
 
-#define SMOOTH_RATIO 1.5
 #define SHADED_CELL_PX 4.0
 #define SLIVER 1e-7
 #define LARGE_PX 64  // pixels of the bounds from which on a polygon is listed
@@ -35,7 +34,7 @@ vec2 pixel_of(uint ray) { return rays[ray].xy - vec2(base); }
 int state_of(uvec4 v) {
   bool open = true, high = true;
   for (int k = 0; k < 4; ++k) {
-    open = open && blocked(v[k]) <= 0.0;
+    open = open && passes(v[k]);
     high = high && rays[v[k]].w > 1.0;
   }
   if (open) return STATE_OPEN;
@@ -52,30 +51,6 @@ bool outside_frame(uvec4 v) {
   vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
   vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
   return !(low.x < float(p.width) && low.y < float(p.height) && high.x >= 0.0 && high.y >= 0.0);
-}
-
-// The signed area of a cell in pixels; 0 if a ray failed, which is not smooth.
-float cell_area(uint ix, uint iy) {
-  uint a = ray_at(ix, iy), b = ray_at(ix + 1u, iy), c = ray_at(ix + 1u, iy + 1u), d = ray_at(ix, iy + 1u);
-  if (failed(rays[a]) || failed(rays[b]) || failed(rays[c]) || failed(rays[d])) return 0.0;
-  return 0.5 * cross2(rays[c].xy - rays[a].xy, rays[d].xy - rays[b].xy);
-}
-
-float vertex_irradiance(uint ix, uint iy) {
-  float smallest = FAILED, largest = -FAILED, sum = 0.0, count = 0.0;
-  uint cells = p.side - 1u;
-  for (uint cy = max(iy, 1u) - 1u; cy <= min(iy, cells - 1u); ++cy) {
-    for (uint cx = max(ix, 1u) - 1u; cx <= min(ix, cells - 1u); ++cx) {
-      float area = cell_area(cx, cy);
-      smallest = min(smallest, area);
-      largest = max(largest, area);
-      sum += area;
-      count += 1.0;
-    }
-  }
-  float ratio = largest < 0.0 ? smallest / largest : largest / smallest;
-  bool smooth_map = smallest * largest > 0.0 && ratio < SMOOTH_RATIO;
-  return smooth_map ? rays[ray_at(ix, iy)].z * count / abs(sum) : 0.0;
 }
 
 float triangle_flux(uvec3 t) { return p.triangle_weight * (rays[t.x].z + rays[t.y].z + rays[t.z].z) / 3.0; }
@@ -115,6 +90,25 @@ void list_large(Density density, ivec4 box) {
   for (int k = 0; k < corner_count; ++k) large_corners[first + uint(k)] = polygon[k];
 }
 
+// The frame's pixels within bounds, as (first, last); false if there are none. The bounds are clamped before they are
+// converted: a ghost may be far larger than an integer.
+bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
+  vec2 frame_low = -vec2(base), frame_high = vec2(p.width, p.height) - vec2(base);
+  if (!(high.x > frame_low.x && low.x < frame_high.x && high.y > frame_low.y && low.y < frame_high.y)) return false;
+  ivec2 first = ivec2(floor(max(low, frame_low))), last = ivec2(ceil(min(high, frame_high))) - 1;
+  last = min(max(last, first), ivec2(frame_high) - 1);
+  box = ivec4(first, last);
+  return last.x >= first.x && last.y >= first.y;
+}
+
+bool is_large(ivec4 box) { return (box.z - box.x + 1) * (box.w - box.y + 1) >= LARGE_PX; }
+
+void add_covered(int x, int y, float covered, Density density) {
+  if (covered <= 0.0) return;
+  float level = density.value + dot(density.gradient, vec2(x, y) + 0.5 - density.point);
+  add_light(x + base.x, y + base.y, covered * level);
+}
+
 // The invocation's polygon, with an irradiance that is linear over it.
 void add_polygon(Density density) {
   vec2 low = polygon[0], high = polygon[0];
@@ -122,29 +116,44 @@ void add_polygon(Density density) {
     low = min(low, polygon[k]);
     high = max(high, polygon[k]);
   }
-  // The bounds are clamped before they are converted: a ghost may be far larger than an integer.
-  vec2 frame_low = -vec2(base), frame_high = vec2(p.width, p.height) - vec2(base);
-  if (!(high.x > frame_low.x && low.x < frame_high.x && high.y > frame_low.y && low.y < frame_high.y)) return;
-  ivec2 first = ivec2(floor(max(low, frame_low))), last = ivec2(ceil(min(high, frame_high))) - 1;
-  last = max(last, first);
-  last = min(last, ivec2(frame_high) - 1);
-  ivec2 extent = last - first + 1;
-  if (extent.x <= 0 || extent.y <= 0) return;
-  if (extent.x * extent.y >= LARGE_PX) {
-    list_large(density, ivec4(first + base, last + base));
+  ivec4 box;
+  if (!pixels_of(low, high, box)) return;
+  if (is_large(box)) {
+    list_large(density, box + base.xyxy);
     return;
   }
   float orientation = twice_polygon_area() < 0.0 ? 1.0 : -1.0;
-  for (int y = first.y; y <= last.y; ++y) {
-    for (int x = first.x; x <= last.x; ++x) {
+  for (int y = box.y; y <= box.w; ++y) {
+    for (int x = box.x; x <= box.z; ++x) {
       vec2 corner = vec2(x, y);
       float covered = 0.0;
       for (int k = 0; k < corner_count; ++k)
         covered += area_right_of(polygon[k] - corner, polygon[k + 1 == corner_count ? 0 : k + 1] - corner);
-      covered *= orientation;
-      if (covered <= 0.0) continue;
-      float level = density.value + dot(density.gradient, corner + 0.5 - density.point);
-      add_light(x + base.x, y + base.y, covered * level);
+      add_covered(x, y, covered * orientation, density);
+    }
+  }
+}
+
+// The same for four corners, which need no array in memory.
+void add_quad(vec2 a, vec2 b, vec2 c, vec2 d, float area, Density density) {
+  ivec4 box;
+  if (!pixels_of(min(min(a, b), min(c, d)), max(max(a, b), max(c, d)), box)) return;
+  if (is_large(box)) {
+    polygon[0] = a;
+    polygon[1] = b;
+    polygon[2] = c;
+    polygon[3] = d;
+    corner_count = 4;
+    list_large(density, box + base.xyxy);
+    return;
+  }
+  float orientation = area < 0.0 ? 1.0 : -1.0;
+  for (int y = box.y; y <= box.w; ++y) {
+    for (int x = box.x; x <= box.z; ++x) {
+      vec2 o = vec2(x, y);
+      float covered = (area_right_of(a - o, b - o) + area_right_of(b - o, c - o)) +
+                      (area_right_of(c - o, d - o) + area_right_of(d - o, a - o));
+      add_covered(x, y, covered * orientation, density);
     }
   }
 }
@@ -209,30 +218,25 @@ void draw_triangle(uvec3 t, bool is_cut, vec2 gradient) {
   draw_polygon(t, fraction, gradient);
 }
 
-bool is_convex(vec2 q[4], float orientation) {
-  for (int k = 0; k < 4; ++k) {
-    vec2 a = q[k], b = q[(k + 1) % 4], c = q[(k + 2) % 4];
-    if (cross2(b - a, c - a) * orientation <= 0.0) return false;
-  }
-  return true;
+bool is_convex(vec2 a, vec2 b, vec2 c, vec2 d, float orientation) {
+  return cross2(b - a, c - a) * orientation > 0.0 && cross2(c - b, d - b) * orientation > 0.0 &&
+         cross2(d - c, a - c) * orientation > 0.0 && cross2(a - d, b - d) * orientation > 0.0;
 }
 
-void draw_open(uvec4 v, bool is_smooth, float area, vec2 gradient) {
-  vec2 q[4] = vec2[4](pixel_of(v.x), pixel_of(v.y), pixel_of(v.z), pixel_of(v.w));
-  for (int k = 0; k < 4; ++k) polygon[k] = q[k];
-  corner_count = 4;
+// Returns false where the cell's triangles are to be drawn in its place.
+bool draw_open(uvec4 v, bool is_smooth, float area, vec2 gradient) {
+  vec2 a = pixel_of(v.x), b = pixel_of(v.y), c = pixel_of(v.z), d = pixel_of(v.w);
   float flux = triangle_flux(v.xyz) + triangle_flux(v.xzw);
-  if (in_one_pixel()) {
+  if (floor(a) == floor(b) && floor(a) == floor(c) && floor(a) == floor(d)) {
     ++primitives;
-    add_point(q[0], flux);
-  } else if (is_smooth && is_convex(q, area)) {
-    float value = flux / abs(0.5 * cross2(q[2] - q[0], q[3] - q[1]));
-    ++primitives;
-    add_polygon(Density((q[0] + q[1] + q[2] + q[3]) * 0.25, value, gradient * value));
-  } else {
-    draw_triangle(v.xyz, false, gradient);
-    draw_triangle(v.xzw, false, gradient);
+    add_point(a, flux);
+    return true;
   }
+  if (!is_smooth || !is_convex(a, b, c, d, area)) return false;
+  float value = flux / abs(0.5 * cross2(c - a, d - b));
+  ++primitives;
+  add_quad(a, b, c, d, area, Density((a + b + c + d) * 0.25, value, gradient * value));
+  return true;
 }
 
 // The plane whose differences along both diagonals are those of the vertices' irradiances, relative to their mean.
@@ -251,18 +255,15 @@ void draw_cell(uint ix, uint iy) {
   if (!any_failed && outside_frame(v)) return;
   vec2 near = failed(rays[v.x]) ? rays[v.z].xy : rays[v.x].xy;
   base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
-  vec4 e = vec4(vertex_irradiance(ix, iy), vertex_irradiance(ix + 1u, iy), vertex_irradiance(ix + 1u, iy + 1u),
-                vertex_irradiance(ix, iy + 1u));
+  vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   bool is_smooth = all(greaterThan(e, vec4(0.0)));
-  float area = cell_area(ix, iy);
+  float area = any_failed ? 0.0 : 0.5 * cross2(rays[v.z].xy - rays[v.x].xy, rays[v.w].xy - rays[v.y].xy);
   vec2 gradient = vec2(0.0);
   if ((p.flags & FLAG_SMOOTH) != 0u && is_smooth && abs(area) >= SHADED_CELL_PX) gradient = gradient_of(v, e);
-  if (state == STATE_OPEN) {
-    draw_open(v, is_smooth, area, gradient);
-  } else {
-    draw_triangle(v.xyz, true, gradient);
-    draw_triangle(v.xzw, true, gradient);
-  }
+  if (state == STATE_OPEN && draw_open(v, is_smooth, area, gradient)) return;
+  // One call in a loop, since compilers copy a function's code into each place that calls it.
+  for (uint half_cell = 0u; half_cell < 2u; ++half_cell)
+    draw_triangle(half_cell == 0u ? v.xyz : v.xzw, state == STATE_CUT, gradient);
 }
 
 void main() {

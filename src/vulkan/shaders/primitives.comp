@@ -10,30 +10,12 @@ layout(local_size_x = 64) in;
 #include "quad.glsl"
 #include "primitive.glsl"
 
-#define SMOOTH_RATIO 1.5
 #define SLIVER 1e-7
 #define LARGE_PX 64
 #define BLOCK_PARTED -2.0
 
 shared uint primitive_count;
 uint primitives;
-
-// The signed area of a cell; cells beyond the grid's border count as those inside it. 0 if a ray failed.
-float cell_area(int ix, int iy) {
-  int last = int(p.side) - 2;
-  uvec4 v = corners_of(1u, uint(clamp(ix, 0, last)), uint(clamp(iy, 0, last)));
-  if (any_failed(v)) return 0.0;
-  return 0.5 * cross2(rays[v.z].xy - rays[v.x].xy, rays[v.w].xy - rays[v.y].xy);
-}
-
-float vertex_irradiance(uint ray) {
-  int k = int(ray - p.first_ray), ix = k % int(p.side), iy = k / int(p.side);
-  float a = cell_area(ix - 1, iy - 1), b = cell_area(ix, iy - 1), c = cell_area(ix - 1, iy), d = cell_area(ix, iy);
-  float low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
-  float smallest = min(abs(low), abs(high)), largest = max(abs(low), abs(high));
-  bool is_smooth = low * high > 0.0 && largest < SMOOTH_RATIO * smallest;
-  return is_smooth ? 4.0 * rays[ray].z / abs((a + b) + (c + d)) : 0.0;
-}
 
 float twice_area(uint i, uint j, uint k) { return cross2(rays[j].xy - rays[i].xy, rays[k].xy - rays[i].xy); }
 
@@ -76,7 +58,7 @@ void draw(Primitive q) {
 }
 
 bool all_open(uvec4 v) {
-  return blocked(v.x) <= 0.0 && blocked(v.y) <= 0.0 && blocked(v.z) <= 0.0 && blocked(v.w) <= 0.0;
+  return passes(v.x) && passes(v.y) && passes(v.z) && passes(v.w);
 }
 
 void emit_quad(uvec4 v, float flux) {
@@ -89,7 +71,7 @@ void emit_quad(uvec4 v, float flux) {
   }
   ++primitives;
   if (!(first + second > SLIVER * extent_squared(v))) return;
-  vec4 e = vec4(vertex_irradiance(v.x), vertex_irradiance(v.y), vertex_irradiance(v.z), vertex_irradiance(v.w));
+  vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   if (!all(greaterThan(e, vec4(0.0)))) e = vec4(1.0);
   float held = (first * (e.x + e.y + e.z) + second * (e.x + e.z + e.w)) / 6.0;
   draw(Primitive(v, e * (flux / held), false, all_open(v)));
