@@ -10,18 +10,27 @@ namespace {
 
 constexpr std::uint32_t kInvocationsAGroup = 64;
 constexpr int kTile = 8;
-// The sums hold 63 bits: the light of all grids in one pixel takes this many, and the rest is for single values of
-// tiny cells, which may be larger.
-constexpr double kFixedPoint = 0x1p48;
+// The sums hold 63 bits: an estimate of the light of all grids in one pixel takes this many, and the rest is for
+// grazing rays, which may be brighter than estimated, and for single values of tiny cells.
+constexpr double kFixedPoint = 0x1p50;
 
-// An upper limit of the light that all grids bring to a pixel, apart from tiny cells.
+// The largest reflectance of a step at angles of incidence up to 75 degrees.
+double largest_reflectance(const float* table) {
+  constexpr int kFirst = ReflectanceTables::kIntervals / 4;
+  return *std::max_element(table + kFirst, table + ReflectanceTables::kIntervals + 1);
+}
+
+// An estimate of the light that all grids bring to a pixel at most.
 double most_light(std::span<const DeviceGrid> grids) {
   double sum = 0.0;
   for (const DeviceGrid& grid : grids) {
     const double area = static_cast<double>(ray_count(grid)) * std::abs(grid.step_mm.x * grid.step_mm.y);
     float gain = 0.0F;
     for (const float channel : grid.gain) gain = std::max(gain, std::abs(channel));
-    sum += area * grid.irradiance * gain;
+    double light = area * grid.irradiance * gain;
+    for (const PacketStep& step : grid.path.steps())
+      if (step.event == PathEvent::Reflect) light *= largest_reflectance(grid.path.tables() + step.reflectance);
+    sum += light;
   }
   return sum;
 }

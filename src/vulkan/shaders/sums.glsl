@@ -3,9 +3,9 @@
 // same bits from run to run although many invocations add to a pixel at once.
 #define LARGEST_SUM 1.0e18  // bounds a single value, far above any sum of a frame
 
-// Two's complement of a value, low word first. Halves of a float's 24 digits are exact.
+// Two's complement of a value, rounded, low word first. Halves of a float's 24 digits are exact.
 uvec2 to_fixed(float value) {
-  float size = min(abs(value), LARGEST_SUM);
+  float size = floor(min(abs(value), LARGEST_SUM) + 0.5);
   uint high = uint(size * 2.3283064365386963e-10);
   uint low = uint(size - float(high) * 4294967296.0);
   if (value >= 0.0) return uvec2(low, high);
