@@ -131,6 +131,7 @@ void set_up(CLI::App& app, Action& action) {
   add_apply(app, action);
   add_lights(app, action);
   add_farm(app, action);
+  add_devices(app, action);
   add_lens(app, action);
   add_glass(app, action);
   add_ghosts(app, action);

@@ -46,7 +46,7 @@ Result<int> apply_to_still(const ApplyOptions& options) {
   if (!source) return tl::unexpected(source.error());
   auto planned = read_photograph(options, std::make_shared<const LensState>(geometry_of(*source)));
   if (!planned) return tl::unexpected(planned.error());
-  auto renderer = renderer_of(options.values, *source);
+  auto renderer = open_renderer(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
   auto flared = [&] {
     const LongTask task("rendering", options.values.integer("threads"));

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "cli/lens_choice.h"
+#include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
@@ -30,7 +31,7 @@ Result<std::shared_ptr<const LensState>> FrameLens::at(const params::Values& val
 }
 
 Result<FrameRenderer> FrameRenderer::create(const FrameLens& lens, const params::Values& values) {
-  auto renderer = renderer_of(values, lens.first_source());
+  auto renderer = open_renderer(values, lens.first_source());
   if (!renderer) return tl::unexpected(renderer.error());
   return FrameRenderer(std::move(*renderer));
 }
@@ -38,7 +39,7 @@ Result<FrameRenderer> FrameRenderer::create(const FrameLens& lens, const params:
 Result<void> FrameRenderer::set(const std::shared_ptr<const LensState>& lens, const params::Values& values) {
   auto* const renderer = std::get_if<Renderer>(&renderer_);
   if (renderer == nullptr) return {};
-  if (auto set = renderer->set_method(params::method_options(values)); !set) return set;
+  if (auto set = configure_renderer(*renderer, values); !set) return set;
   if (lens == lens_) return {};
   lens_ = lens;
   return renderer->set_lens(*lens);

@@ -248,7 +248,7 @@ Result<PredictionRow> row_of_frame(const std::string& file, const PredictOptions
 }
 
 Result<Rows> rows_of_frames(const PredictOptions& options, const PredictScene& scene) {
-  auto renderer = renderer_of(options.values, scene.source);
+  auto renderer = open_renderer(options.values, scene.source);
   if (!renderer) return tl::unexpected(renderer.error());
   Rows rows;
   for (const std::string& file : options.frames) {

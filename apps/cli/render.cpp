@@ -40,7 +40,7 @@ Result<int> render_still(const RenderOptions& options) {
   auto planned = plan_frame(options, *source, std::make_shared<const LensState>(geometry_of(*source)));
   if (!planned) return tl::unexpected(planned.error());
   print_warnings(planned->request.warnings);
-  auto renderer = renderer_of(options.values, *source);
+  auto renderer = open_renderer(options.values, *source);
   if (!renderer) return tl::unexpected(renderer.error());
   auto rendered = [&] {
     const LongTask task("rendering", options.values.integer("threads"));

@@ -20,6 +20,13 @@ Result<FlareSource> open_source(const std::string& lens, const params::Values& v
   return FlareSource(std::move(*flare));
 }
 
+Result<SourceRenderer> open_renderer(const params::Values& values, const FlareSource& source) {
+  auto renderer = renderer_of(values, source);
+  if (!renderer) return renderer;
+  if (const std::string note = device_note(*renderer); !note.empty()) print_warnings({"the CPU renders: " + note});
+  return renderer;
+}
+
 const std::string& name_of(const FlareSource& source) {
   if (const auto* flare = std::get_if<MeasuredFlare>(&source)) return flare->name;
   return std::get<LensState>(source).name;

@@ -8,12 +8,16 @@
 #include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/source_renderer.h"
 
 namespace contrejour::cli {
 
 // Opens the lens with open_lens(), or reads the measured flare. Errors: those of open_lens() and read_flare(); values
 // that a measured flare cannot follow.
 [[nodiscard]] Result<FlareSource> open_source(const std::string& lens, const params::Values& values, MeasuredUse use);
+
+// As contrejour::renderer_of(), with a warning where the CPU stands in for another device.
+[[nodiscard]] Result<SourceRenderer> open_renderer(const params::Values& values, const FlareSource& source);
 
 [[nodiscard]] const std::string& name_of(const FlareSource& source);
 

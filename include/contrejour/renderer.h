@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "contrejour/context.h"
 #include "contrejour/expert/flare_layers.h"
@@ -23,7 +24,8 @@
 
 namespace contrejour {
 
-enum class Device { Cpu };  // where frames are computed
+// Where frames are computed (docs/gpu.md): on the CPU; by Vulkan on a GPU; or there if possible, and else on the CPU.
+enum class Device { Cpu, Vulkan, Auto };
 
 // Where a frame goes.
 struct FrameTarget {
@@ -35,8 +37,11 @@ struct FrameTarget {
 
 class CONTREJOUR_API Renderer {
  public:
-  // Errors: there is no such method. Options out of range are refused when a frame is rendered.
-  [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu);
+  // which: the device's index or a part of its name (list_devices); empty: the environment's CONTREJOUR_DEVICE, or the
+  // first usable one. Errors: there is no such method; Unsupported, if Device::Vulkan has no usable device. Options out
+  // of range are refused when a frame is rendered.
+  [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu,
+                                               const std::string& which = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -45,6 +50,14 @@ class CONTREJOUR_API Renderer {
   [[nodiscard]] Result<void> set_lens(LensState lens);
   // The method of the frames that follow.
   [[nodiscard]] Result<void> set_method(MethodOptions method);
+
+  // The device of the frames that follow, as for create(); one that is open already stays so. Errors: Unsupported,
+  // after which the CPU renders.
+  [[nodiscard]] Result<void> set_device(Device device, const std::string& which = {});
+
+  // Why Device::Auto chose the CPU; empty: it did not. What a device cannot draw the CPU draws in any case, which
+  // RenderStatistics::device states for each frame.
+  [[nodiscard]] const std::string& device_note() const;
 
   // Errors: also that no lens was set.
   [[nodiscard]] Result<RenderStatistics> render(std::span<const Light> lights, const FrameSettings& settings,

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/detected_picture.h"
 #include "contrejour/expert/measured_settings.h"
+#include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/settings.h"
 #include "openfx/parameter_list.h"
 
@@ -169,7 +170,7 @@ Result<void> FlareEngine::set_lens(const FrameValues& values) {
 }
 
 Result<void> FlareEngine::set_method(const Values& values, bool is_draft) {
-  return renderer_->set_method(is_draft ? MethodOptions(AdaptiveOptions{kDraftError}) : params::method_options(values));
+  return is_draft ? renderer_->set_method(AdaptiveOptions{kDraftError}) : configure_renderer(*renderer_, values);
 }
 
 Result<std::vector<Light>> FlareEngine::given_lights(const FlareRequest& request, const FrameValues& values,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/expert/source_renderer.h"
@@ -102,7 +103,7 @@ class LensRenderer {
       return value_of(picture_request(values, *flare, lights_of(lights)));
     if (!lens_) throw py::value_error("the renderer has no lens");
     PictureRequest request = value_of(picture_request(values, *lens_, lights_of(lights)));
-    value_of(std::get<Renderer>(renderer_).set_method(params::method_options(values)));
+    value_of(configure_renderer(std::get<Renderer>(renderer_), values));
     return request;
   }
 

@@ -9,6 +9,7 @@
 #include "c_interface/call_context.h"
 #include "c_interface/caller_image.h"
 #include "c_interface/caller_lights.h"
+#include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 
@@ -50,7 +51,7 @@ Result<RenderStatistics> render_for_caller(cj_renderer& renderer, const cj_setti
   const auto request = request_of(renderer, *values, lights);
   if (!request) return tl::unexpected(request.error());
   if (auto* of_lens = std::get_if<Renderer>(&renderer.renderer))
-    if (auto set = of_lens->set_method(params::method_options(*values)); !set) return tl::unexpected(set.error());
+    if (auto set = configure_renderer(*of_lens, *values); !set) return tl::unexpected(set.error());
   const CallContext call(context, *values);
   return render_picture(*request, renderer.renderer, view, call.context());
 }

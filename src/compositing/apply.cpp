@@ -7,6 +7,7 @@
 
 #include "compositing/picture_flare.h"
 #include "contrejour/expert/pixel_grid.h"
+#include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour {
@@ -48,8 +49,9 @@ Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const
 
 Result<PictureFlare> render_flare(const FlarePlan& plan, const Image& rgb, const LensState& lens,
                                   const params::Values& values, const Context& context) {
-  auto renderer = Renderer::create(params::method_options(values));
+  auto renderer = Renderer::create();
   if (!renderer) return tl::unexpected(renderer.error());
+  if (auto set = configure_renderer(*renderer, values); !set) return tl::unexpected(set.error());
   if (auto set = renderer->set_lens(lens); !set) return tl::unexpected(set.error());
   return render_flare(plan, rgb, values, *renderer, context);
 }

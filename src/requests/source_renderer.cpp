@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "contrejour/expert/measured_settings.h"
-#include "contrejour/expert/settings.h"
+#include "contrejour/expert/renderer_settings.h"
 
 namespace contrejour {
 namespace {
@@ -17,10 +17,16 @@ void add_range_warnings(FlarePlan& plan, const MeasuredFlare& flare) {
 
 Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSource& source) {
   if (const auto* flare = std::get_if<MeasuredFlare>(&source)) return SourceRenderer(*flare);
-  auto renderer = Renderer::create(params::method_options(values));
+  auto renderer = Renderer::create();
   if (!renderer) return tl::unexpected(renderer.error());
+  if (auto set = configure_renderer(*renderer, values); !set) return tl::unexpected(set.error());
   if (auto set = renderer->set_lens(std::get<LensState>(source)); !set) return tl::unexpected(set.error());
   return SourceRenderer(std::move(*renderer));
+}
+
+std::string device_note(const SourceRenderer& renderer) {
+  const auto* of_lens = std::get_if<Renderer>(&renderer);
+  return of_lens != nullptr ? of_lens->device_note() : std::string();
 }
 
 Result<Flare> render(SourceRenderer& renderer, std::span<const Light> lights, const FrameSettings& settings,

@@ -23,7 +23,9 @@ const Parameter kGhostTable[] = {
     {.name = "method", .group = "Rendering", .unit = "METHOD", .fallback = "adaptive",
      .help = "adaptive, bundle (hullin2011), tiled (bodonyi2023) or reference (exact and slow)", .check = check_method},
     {.name = "device", .group = "Rendering", .kind = Kind::Choice, .fallback = "cpu",
-     .help = "the device that renders", .choices = {"cpu"}, .scene = true},
+     .help = "the device that renders: the CPU; a GPU by Vulkan, which CONTREJOUR_DEVICE chooses by index or name; auto: "
+             "a GPU where there is one (contrejour devices lists them)", .choices = {"cpu", "vulkan", "auto"},
+     .scene = true},
     {.name = "wavelengths", .group = "Rendering", .unit = "N", .fallback = "auto",
      .help = "number of bands of the visible spectrum, 1 to 1024; auto: for each ghost as many as its dispersion and "
              "the coatings require", .check = parses<parse_wavelengths>},

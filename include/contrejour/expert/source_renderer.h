@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <variant>
 
 #include "contrejour/apply.h"
@@ -22,6 +23,9 @@ using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
 // A renderer that has the lens and the values' method, or the measured flare.
 [[nodiscard]] CONTREJOUR_API Result<SourceRenderer> renderer_of(const params::Values& values,
                                                                 const FlareSource& source);
+
+// Why the CPU renders although another device was asked for; empty: it does not (Renderer::device_note).
+[[nodiscard]] CONTREJOUR_API std::string device_note(const SourceRenderer& renderer);
 
 // The flare of lights in a frame; a measured flare takes the settings' frame and ignores the rest.
 [[nodiscard]] CONTREJOUR_API Result<Flare> render(SourceRenderer& renderer, std::span<const Light> lights,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/tasks.h"
+#include "render/bundle/device_grids.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/stopwatch.h"
 #include "render/planning/adaptive_passes.h"
@@ -78,6 +79,12 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   if (!stops.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return interrupted();
+  const bundle::GridSource source{lens, options, plan.tables, stops, bounds ? &*bounds : nullptr};
+  KeptDevice& kept = *planned.cache.section<KeptDevice>({});
+  if (kept.may_draw(bundle::device_lacks(source, plan))) {
+    auto drawn = bundle::draw_on_device(kept, source, planned, plan, context);
+    if (!kept.falls_back(drawn)) return drawn;
+  }
 
   LayerImages images(plan, frame);
   Counts counts;
@@ -86,7 +93,6 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
     counts.surface_hits = bounds->surface_hits();
   }
   const auto items = bundle::items_of(plan, options);
-  const bundle::GridSource source{lens, options, plan.tables, stops, bounds ? &*bounds : nullptr};
   const bool done = ordered_pipeline(
       items.size(), context,
       [&](std::size_t k) { return bundle::ItemRenderer(items[k], frame, source, context).render(); },

@@ -84,15 +84,19 @@ int GhostGrid::side_of(const GhostPupil& pupil) const {
   return grid_side(from_.options.grid, from_.lens, pupil.region.sensor_mm, kMinScaled);
 }
 
+GhostGrid::Sampling GhostGrid::sampling_of(const GhostPupil& pupil) const {
+  const int side = side_of(pupil);
+  return {side, precision_for(pupil.path, tables_of(pupil), pupil.meridian.light, pupil.plane_z_mm,
+                              pupil.region.pupil_mm, side, pixel_pitch_mm_)};
+}
+
 void GhostGrid::trace(const GhostPupil& pupil) {
   const Stopwatch watch(counts_.trace_ms);
-  const int side = side_of(pupil);
+  const auto [side, precision] = sampling_of(pupil);
   const IrisShape iris(pupil.iris);
   const auto all = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   const Rectangle& box = pupil.region.pupil_mm;
   const LightSource& light = pupil.meridian.light;
-  const auto precision =
-      precision_for(pupil.path, tables_of(pupil), light, pupil.plane_z_mm, box, side, pixel_pitch_mm_);
   if (mirrors()) {
     count_rays(rays_.trace_mirrored(pupil.path, tables_of(pupil), iris, light, pupil.plane_z_mm, box, side, precision),
                pupil.path);

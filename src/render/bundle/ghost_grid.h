@@ -51,6 +51,13 @@ class GhostGrid {
   [[nodiscard]] std::optional<GhostPupil> find(Ghost ghost, const LightSource& light, double lambda_nm,
                                                bool with_figures);
 
+  // The rays a side and the precision with which trace() traces a pupil.
+  struct Sampling {
+    int side = 0;
+    PacketPrecision precision = PacketPrecision::Float;
+  };
+  [[nodiscard]] Sampling sampling_of(const GhostPupil& pupil) const;
+
   // Traces the pupil; rays() is valid until the next find() or trace().
   void trace(const GhostPupil& pupil);
   [[nodiscard]] const RayGrid& rays() const { return rays_; }

@@ -6,10 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "render/area_lights/area_render.h"
+#include "render/device/kept_device.h"
 #include "render/session/registry.h"
 #include "render/starburst/starburst_pass.h"
 
@@ -136,14 +139,29 @@ Result<DrawPlan> checked(const MethodOptions& method, const FrameRequest& frame)
   });
 }
 
+// Forgets why the last frame was drawn by the CPU.
+void begin_on_device(RenderCache& cache) { cache.section<KeptDevice>({})->reason.clear(); }
+
+// Says why the CPU drew a frame although there is a device.
+void note_device(RenderStatistics& statistics, const RenderCache& cache) {
+  const auto kept = cache.find<KeptDevice>();
+  if (!kept || !kept->device || statistics.device != "cpu") return;
+  statistics.device += kept->reason.empty() ? fmt::format(" ({} is drawn by the CPU)", statistics.method)
+                                            : fmt::format(" ({})", kept->reason);
+}
+
 }  // namespace
 
 Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame, const Context& context) {
   const auto draw = checked(method, frame);
   if (!draw) return tl::unexpected(draw.error());
+  begin_on_device(frame.cache);
   auto flare = render_whole(*draw, frame, context);
   if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
-  if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
+  if (flare) {
+    flare->statistics.peak_memory_bytes = peak_memory_bytes();
+    note_device(flare->statistics, frame.cache);
+  }
   return flare;
 }
 
@@ -151,9 +169,13 @@ Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const Fram
                                          const Context& context) {
   const auto draw = checked(method, frame);
   if (!draw) return tl::unexpected(draw.error());
+  begin_on_device(frame.cache);
   auto flare = draw_layers(*draw, frame, context);
   if (context.cancelled()) return interrupted();
-  if (flare) flare->statistics.peak_memory_bytes = peak_memory_bytes();
+  if (flare) {
+    flare->statistics.peak_memory_bytes = peak_memory_bytes();
+    note_device(flare->statistics, frame.cache);
+  }
   return flare;
 }
 

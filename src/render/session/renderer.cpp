@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contrejour/expert/check_lens.h"
+#include "render/device/kept_device.h"
 #include "render/planning/frame_memory.h"
 #include "render/session/registry.h"
 #include "render/session/render_frame.h"
@@ -29,6 +30,8 @@ struct Renderer::State {
   MethodOptions method;
   std::optional<LensState> lens = std::nullopt;
   RenderCache cache = {};
+  std::pair<Device, std::string> device = {Device::Cpu, {}};
+  std::string device_note = {};
 
   [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
                                      const FrameSettings& settings, const Context& context) {
@@ -55,10 +58,33 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Result<Renderer> Renderer::create(MethodOptions method, Device /*device*/) {
+Result<Renderer> Renderer::create(MethodOptions method, Device device, const std::string& which) {
   if (const auto known = known_method(method.name()); !known) return tl::unexpected(known.error());
-  return Renderer(std::make_unique<State>(State{std::move(method)}));
+  Renderer renderer(std::make_unique<State>(State{std::move(method)}));
+  if (const auto set = renderer.set_device(device, which); !set) return tl::unexpected(set.error());
+  return renderer;
 }
+
+Result<void> Renderer::set_device(Device device, const std::string& which) {
+  if (state_->device == std::pair(device, which)) return {};
+  KeptDevice& kept = *state_->cache.section<KeptDevice>({});
+  kept.device = nullptr;
+  kept.is_required = device == Device::Vulkan;
+  state_->device = {Device::Cpu, {}};
+  state_->device_note.clear();
+  if (device != Device::Cpu) {
+    auto opened = open_frame_device({.which = which});
+    if (!opened && device == Device::Vulkan) return tl::unexpected(opened.error());
+    if (opened)
+      kept.device = std::move(*opened);
+    else
+      state_->device_note = opened.error().message;
+  }
+  state_->device = {device, which};
+  return {};
+}
+
+const std::string& Renderer::device_note() const { return state_->device_note; }
 
 Result<void> Renderer::set_lens(LensState lens) {
   if (auto good = check_lens(lens); !good) return tl::unexpected(good.error());

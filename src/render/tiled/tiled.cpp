@@ -18,6 +18,7 @@
 #include "render/planning/statistics.h"
 #include "render/pupils/pupil_search.h"
 #include "render/stop_patterns/stop_transmittances.h"
+#include "render/tiled/device_grids.h"
 #include "render/tiled/primitive_builder.h"
 #include "render/tiled/tiled_frame.h"
 
@@ -26,8 +27,6 @@ namespace {
 
 constexpr int kMaxMergeSteps = 9;  // merges a grid of 512 into one primitive
 constexpr int kLargestTile = 4096;
-// bodonyi2023 eq. 13 uses at least this fraction of the grid's rays.
-constexpr double kMinFraction = 0.05;
 constexpr double kTracingProgress = 0.7;  // fraction of the whole progress
 
 Result<void> check(const TiledOptions& o) {
@@ -161,8 +160,7 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   count_rays(pupil.rays);
 
   start = Clock::now();
-  const int min_count = std::max(2, static_cast<int>(std::lround(job.options.grid.rays * kMinFraction)));
-  const int side = grid_side(job.options.grid, job.lens, pupil.sensor_mm, min_count);
+  const int side = tiled::side_of_grid(job.options.grid, job.lens, pupil.sensor_mm);
   const auto precision =
       precision_for(path, tables, item.light, window.z_mm, pupil.box(), side, job.frame.pixel_pitch_mm);
   workspace.grid.trace(path, tables, iris, item.light, window.z_mm, pupil.box(), side, precision);
@@ -229,6 +227,11 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   const FramePlan& plan = *with_passes;
   StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
   if (!stops.prepare(plan, context)) return interrupted();
+  KeptDevice& kept = *planned.cache.section<KeptDevice>({});
+  if (kept.may_draw(tiled::device_lacks(stops, plan, lens))) {
+    auto drawn = tiled::draw_on_device(kept, options, stops, planned, plan, context);
+    if (!kept.falls_back(drawn)) return drawn;
+  }
   const std::size_t layer_count = plan.layers ? plan.layers->count() : 1;
   LayerImages images(plan, pixels);
   DrawnFlare flare;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// A device, such as a GPU, that traces grids of rays and draws them into an image. The renderers describe what is to be
+// drawn as plain data and know no device; an implementation is a layer that nobody includes (src/vulkan).
+// Thread-safety: one thread at a time uses a device.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/expert/devices.h"
+#include "contrejour/frame.h"
+#include "contrejour/image.h"
+#include "contrejour/method_options.h"
+#include "contrejour/result.h"
+#include "ghosts/iris_shape.h"
+#include "optics/trace/packet_trace.h"
+
+namespace contrejour::inline internal {
+
+// The rays of one ghost, light and wavelength over a rectangle of the entrance plane.
+struct DeviceGrid {
+  PacketPath path;  // begins at the rectangle's lower corner; its tables outlive the grid
+  Vec2 step_mm;  // between neighbouring rays
+  int side = 0;  // rays a side
+  PacketPrecision precision = PacketPrecision::Float;
+  double irradiance = 1.0;  // a ray of transmission 1 carries the area of a cell times this
+  std::array<float, 3> gain{};  // from flux to pixel values
+  Vec2 shift_mm{};  // of the ghost, on the sensor
+};
+
+// What is drawn from the grids: the cells as `bundle` does, or primitives as `tiled` does.
+using GridStyle = std::variant<BundleOptions, TiledOptions>;
+
+struct GridJob {
+  const Frame& frame;
+  const IrisShape& iris;  // not a picture
+  std::span<const DeviceGrid> grids;
+  const GridStyle& style;
+};
+
+// The work of a device, and what it took.
+struct DeviceWork {
+  std::uint64_t rays = 0, primitives = 0, invocations = 0, submissions = 0, uploaded_bytes = 0;
+  double ms = 0.0;
+
+  void add(const DeviceWork& other) {
+    rays += other.rays;
+    primitives += other.primitives;
+    invocations += other.invocations;
+    submissions += other.submissions;
+    uploaded_bytes += other.uploaded_bytes;
+    ms += other.ms;
+  }
+};
+
+// Rays as they arrive, by vertex of the grid: as RayGrid's. A ray that failed has relative_height kFailed.
+struct DeviceRays {
+  std::vector<float> sensor_x_mm, sensor_y_mm, transmission, relative_height;
+  std::array<std::vector<float>, kMaxStopCrossings> stop_x, stop_y;
+};
+
+class FrameDevice {
+ public:
+  FrameDevice() = default;
+  FrameDevice(const FrameDevice&) = delete;
+  FrameDevice& operator=(const FrameDevice&) = delete;
+  virtual ~FrameDevice() = default;
+
+  [[nodiscard]] virtual const DeviceInfo& info() const = 0;
+
+  // Draws grids into the image, whose values it replaces: the same bits whenever it is called. Errors: Unsupported, if
+  // the device fails (out of memory, lost, no answer), after which the next call starts anew; Cancelled.
+  [[nodiscard]] virtual Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) = 0;
+
+  // Traces one grid alone, for comparison with trace_packets(). Errors: as draw().
+  [[nodiscard]] virtual Result<DeviceRays> trace(const DeviceGrid& grid) = 0;
+
+  [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;  // held on the device
+};
+
+// How a device is opened.
+struct DeviceOptions {
+  std::string which = {};  // index, or a part of the name; empty: CONTREJOUR_DEVICE, or else the first usable one
+  // Not empty: validation layers are on, where they are installed, and each message is reported.
+  std::function<void(const std::string& message)> on_message = {};
+  double longest_wait_s = 0.0;  // until a submission counts as hanging; 0: 10 s, on processors acting as GPUs 300 s
+  // Called before each submission with its number; an exception counts as the device's failure. For tests.
+  std::function<void(std::uint64_t submission)> before_submission = {};
+};
+
+// Both are implemented by the backend that the library was built with. Errors: Unsupported, if there is no such
+// device or it is unusable, with the reason.
+[[nodiscard]] std::vector<DeviceInfo> frame_devices();
+[[nodiscard]] Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& options);
+
+}  // namespace contrejour::inline internal

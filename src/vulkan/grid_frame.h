@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a job's grids on a device: in batches that fit into its buffers, and in bands of rows where the picture does
+// not. Failures are exceptions, as DeviceContext's. Thread-safety: one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vulkan/device_context.h"
+#include "vulkan/layout.h"
+
+namespace contrejour::inline internal::vulkan {
+
+// Limits of a batch; smaller ones give the same picture.
+struct BatchLimits {
+  std::uint64_t rays = std::uint64_t{1} << 20U;
+  std::uint32_t large_polygons = 1U << 19U;  // all cells of the largest grid, two triangles each
+  std::uint32_t large_corners = 1U << 22U;
+  std::uint64_t rays_a_submission = std::uint64_t{1} << 24U;
+};
+
+class GridFrame {
+ public:
+  // All must outlive the frame.
+  GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits);
+
+  // Replaces the image's values. Returns early when the context is cancelled.
+  DeviceWork draw(Image& image, const Context& context);
+
+ private:
+  struct Band {
+    Frame frame;
+    int first_row = 0;
+  };
+
+  [[nodiscard]] int rows_a_band() const;
+  void prepare(const Frame& band);
+  // Returns false if a buffer for polygons did not suffice.
+  [[nodiscard]] bool draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context);
+  void draw_batch(std::size_t first, std::size_t end);
+  void trace(std::size_t first, std::size_t end);
+  void draw_cells(std::size_t first, std::size_t end);
+  void draw_primitives(std::size_t first, std::size_t end);
+  void share_vertices(std::size_t first, std::size_t end);
+  void merge(std::size_t first, std::size_t end);
+  void draw_large(Shader shader, std::size_t any);
+  [[nodiscard]] std::uint32_t style_flags() const;
+  void resolve(const Band& band, Image& image);
+
+  DeviceContext& device_;
+  const DeviceInfo& info_;
+  const GridJob& job_;
+  BatchLimits limits_;
+  double fixed_point_ = 1.0;  // units of the sums for a pixel value of 1
+  std::vector<Parameters> grids_;  // of the present band, by grid
+  std::vector<std::uint32_t> blocks_at_;  // of `tiled`, by grid: where its levels of merging begin
+  DeviceWork work_;
+};
+
+[[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
+[[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
+
+}  // namespace contrejour::inline internal::vulkan

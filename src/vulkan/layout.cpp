@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vulkan/layout.h"
+
+#include <algorithm>
+
+#include "optics/surface/shape_constants.h"
+
+namespace contrejour::inline internal::vulkan {
+namespace {
+
+constexpr std::size_t kStartReals = 18, kStepReals = 20, kStepIntegers = 12;
+enum StepFlags : std::int32_t { kFromDenser = 1, kBlocksWithin = 2, kGeneral = 4 };
+
+std::array<double, kStartReals> start_numbers(const DeviceGrid& grid, const PixelMap& map) {
+  const PacketPath& path = grid.path;
+  const PacketStart& start = path.start();
+  return {start.origin_mm.x,
+          start.origin_mm.y,
+          start.direction.x,
+          start.direction.y,
+          start.direction.z,
+          start.per_distance_mm,
+          start.flux,
+          start.diverges ? 1.0 : 0.0,
+          grid.step_mm.x,
+          grid.step_mm.y,
+          path.sensor_gap_mm(),
+          path.sensor_offset_mm().x,
+          path.sensor_offset_mm().y,
+          path.inverse_stop_radius_per_mm(),
+          map.origin.x,
+          map.origin.y,
+          map.scale.x,
+          map.scale.y};
+}
+
+std::array<double, kStepReals> step_numbers(const PacketStep& s) {
+  return {s.gap_mm,
+          s.curvature_per_mm,
+          s.inverse_semi_diameter_squared,
+          s.eta,
+          s.direction,
+          s.axis.x,
+          s.axis.y,
+          s.axis.z,
+          s.offset_mm.x,
+          s.offset_mm.y,
+          s.rim.centre_mm.x,
+          s.rim.centre_mm.y,
+          s.rim.u_per_mm.x,
+          s.rim.u_per_mm.y,
+          s.rim.v_per_mm.x,
+          s.rim.v_per_mm.y,
+          s.absorption_per_mm,
+          s.grating_shift.x,
+          s.grating_shift.y,
+          s.efficiency};
+}
+
+std::vector<double> shape_numbers(const ShapeConstants& s) {
+  std::vector<double> out{
+      s.curvature,    s.curvature_x,  s.quadratic, s.quadratic_x, s.aperture_mm, s.per_aperture_squared,
+      s.cos_rotation, s.sin_rotation, s.start_x,   s.start_y,     s.start_z};
+  out.insert(out.end(), s.even.begin(), s.even.begin() + s.even_terms);
+  out.insert(out.end(), s.odd.begin(), s.odd.begin() + s.odd_terms);
+  return out;
+}
+
+}  // namespace
+
+PixelMap pixel_map(const Frame& frame, Vec2 shift_mm) {
+  Frame placed = frame;
+  placed.shift_mm = placed.shift_mm + shift_mm;
+  return {placed.pixel_from_sensor({}), {-1.0 / frame.pixel_pitch_mm, 1.0 / frame.pixel_pitch_mm}};
+}
+
+// Only the tables that steps refer to are copied, each once.
+int PathData::table_of(const float* values) {
+  const auto [at, is_new] = table_at_.try_emplace(values, static_cast<int>(tables_.size()));
+  if (is_new) tables_.insert(tables_.end(), values, values + ReflectanceTables::kIntervals + 1);
+  return at->second;
+}
+
+void PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters& to) {
+  to.integers_at = static_cast<std::uint32_t>(integers_.size());
+  to.step_count = static_cast<std::uint32_t>(grid.path.steps().size());
+  to.crossing_count = static_cast<std::uint32_t>(grid.path.stop_crossings());
+  std::vector<double> numbers;
+  const auto append = [&](const auto& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
+  append(start_numbers(grid, map));
+  for (const PacketStep& step : grid.path.steps()) append(step_numbers(step));
+  const bool in_double = grid.precision == PacketPrecision::Double;
+  const std::size_t first = in_double ? doubles_.size() : floats_.size();
+  to.reals_at = static_cast<std::uint32_t>(first);
+  const bool general = grid.path.geometry() == PathGeometry::General;
+  for (const PacketStep& step : grid.path.steps()) {
+    std::array<std::int32_t, kStepIntegers> out{};
+    const auto flag = [](bool on, std::int32_t bit) { return on ? bit : 0; };
+    out[0] = static_cast<std::int32_t>(step.event);
+    out[1] = step.crossing;
+    out[2] = flag(step.from_denser, kFromDenser) | flag(step.blocks_within, kBlocksWithin) | flag(general, kGeneral);
+    if (step.event != PathEvent::Stop) out[3] = table_of(grid.path.tables() + step.reflectance);
+    out[4] = step.transmittance < 0 ? -1 : table_of(grid.path.tables() + step.transmittance);
+    out[5] = -1;
+    if (step.shape != nullptr) {
+      const ShapeConstants& shape = *step.shape;
+      out[5] = static_cast<std::int32_t>(first + numbers.size());
+      out[6] = static_cast<std::int32_t>(shape.kind);
+      out[7] = shape.even_terms;
+      out[8] = shape.odd_terms;
+      out[9] = shape.rotated ? 1 : 0;
+      append(shape_numbers(shape));
+    }
+    integers_.insert(integers_.end(), out.begin(), out.end());
+  }
+  if (in_double) {
+    doubles_.insert(doubles_.end(), numbers.begin(), numbers.end());
+  } else {
+    std::ranges::transform(numbers, std::back_inserter(floats_), [](double v) { return static_cast<float>(v); });
+  }
+}
+
+std::vector<float> bound_numbers(const IrisShape& iris) {
+  std::vector<float> out;
+  for (const IrisBound& bound : iris.bounds()) {
+    const bool straight = bound.straight();
+    for (const double v :
+         {bound.normal.x, bound.normal.y, std::max(bound.apothem, -1e30), straight ? 1.0 : 0.0, bound.centre.x,
+          bound.centre.y, straight ? 0.0 : bound.radius, straight ? 0.0 : bound.power_at_axis()})
+      out.push_back(static_cast<float>(v));
+  }
+  return out;
+}
+
+}  // namespace contrejour::inline internal::vulkan

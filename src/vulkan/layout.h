@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// How paths, shapes and irises lie in the buffers that shaders read (shaders/bindings.glsl, trace.comp, shape.glsl).
+// Thread-safety: pure functions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "render/device/frame_device.h"
+
+namespace contrejour::inline internal::vulkan {
+
+// The parameters of a dispatch: shaders' push constants, in their order.
+struct Parameters {
+  std::uint32_t reals_at = 0, integers_at = 0, step_count = 0, first_ray = 0;
+  std::uint32_t side = 0, crossing_count = 0, bound_count = 0, flags = 0;
+  std::int32_t width = 0, height = 0;
+  float triangle_weight = 0;
+  std::uint32_t level = 0;
+  std::array<float, 3> gain{};
+  float merge_threshold = 0;
+  std::uint32_t blocks_at = 0, level_side = 0, finer_at = 0, finer_side = 0;
+  std::uint32_t large_capacity = 0, corner_capacity = 0;
+};
+static_assert(sizeof(Parameters) <= 128, "every device has 128 bytes of push constants");
+
+enum ParameterFlags : std::uint32_t {
+  kCircle = 1,
+  kSmooth = 2,
+  kLastLevel = 4,
+  kObscured = 8,
+};
+inline constexpr std::uint32_t kMethodShift = 4;
+
+enum Counter : std::uint32_t { kPrimitiveCount, kLargeCount, kCornerCount, kOverflows, kCounters };
+
+inline constexpr std::uint64_t kRayBytes = 16, kCrossingBytes = 8 * kMaxStopCrossings, kVertexBytes = 8;
+inline constexpr std::uint64_t kLargeBytes = 64, kCornerBytes = 8, kSumBytes = 24, kPixelBytes = 12;
+inline constexpr float kFailedHeight = 3.0e38F;  // FAILED
+
+// Where a ray of the sensor (mm) lies among the pixels: origin + scale * sensor.
+struct PixelMap {
+  Vec2 origin, scale;
+};
+[[nodiscard]] PixelMap pixel_map(const Frame& frame, Vec2 shift_mm);
+
+// The numbers of many grids, as they are uploaded.
+class PathData {
+ public:
+  // Appends a grid, and sets the members of a dispatch that refer to it.
+  void add(const DeviceGrid& grid, const PixelMap& map, Parameters& to);
+
+  [[nodiscard]] const std::vector<float>& floats() const { return floats_; }
+  [[nodiscard]] const std::vector<double>& doubles() const { return doubles_; }
+  [[nodiscard]] const std::vector<std::int32_t>& integers() const { return integers_; }
+  [[nodiscard]] const std::vector<float>& tables() const { return tables_; }
+
+ private:
+  [[nodiscard]] int table_of(const float* values);
+
+  std::vector<float> floats_;
+  std::vector<double> doubles_;
+  std::vector<std::int32_t> integers_;
+  std::vector<float> tables_;
+  std::map<const float*, int> table_at_;
+};
+
+// The bounds of an iris that is no picture, eight numbers each.
+[[nodiscard]] std::vector<float> bound_numbers(const IrisShape& iris);
+
+}  // namespace contrejour::inline internal::vulkan

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shaders, compiled from shaders/*.comp when the library is built.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace contrejour::inline internal::vulkan {
+
+enum class Shader : std::uint8_t {
+  TraceFloat,
+  TraceDouble,
+  Cells,
+  LargeCells,
+  Resolve,
+  Widen,
+  Blocks,
+  Primitives,
+  LargePrimitives,
+  Vertices,
+};
+inline constexpr std::size_t kShaders = 10;
+
+[[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);
+
+}  // namespace contrejour::inline internal::vulkan

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The polygon of an invocation, and what clips it: render/bundle/cell_clip.cpp under the same names.
+#define MAX_CORNERS 40
+#define MAX_TANGENTS 12
+
+vec2 polygon[MAX_CORNERS];  // in (u, v) of a triangle, then in pixels relative to a base
+int corner_count;
+vec2 next_polygon[MAX_CORNERS];
+
+// Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
+void cut(float at_0, float at_1, float at_2) {
+  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
+  int count = 0;
+  for (int k = 0; k < corner_count; ++k) {
+    vec2 a = polygon[k], b = polygon[k + 1 == corner_count ? 0 : k + 1];
+    float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
+    float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
+    if (fa <= 0.0 && count < MAX_CORNERS) next_polygon[count++] = a;
+    if ((fa <= 0.0) != (fb <= 0.0) && count < MAX_CORNERS) next_polygon[count++] = a + (b - a) * (fa / (fa - fb));
+  }
+  for (int k = 0; k < count; ++k) polygon[k] = next_polygon[k];
+  corner_count = count;
+}
+
+void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
+  cut(dot(normal, stop[0]) - half_extent, dot(normal, stop[1]) - half_extent, dot(normal, stop[2]) - half_extent);
+}
+
+// Tangents of a circle of radius r >= 1 deviate from its arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
+void clip_by_circle(vec2 stop[3], vec2 centre, float radius) {
+  vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - centre;
+  float half_extent = 0.0;
+  for (int k = 0; k < 3; ++k) half_extent = max(half_extent, length(stop[k] - centre - middle));
+  float distance = length(middle);
+  float half_angle = distance > 1.5 * half_extent ? asin(half_extent / distance) : 3.14159265;
+  float step_rad = 0.05 / sqrt(max(radius, 1.0));
+  int tangents = min(1 + int(ceil(2.0 * half_angle / step_rad)), MAX_TANGENTS);
+  float middle_angle = atan(middle.y, middle.x);
+  for (int k = 0; k < tangents; ++k) {
+    float angle = middle_angle + half_angle * (float(2 * k + 1) / float(tangents) - 1.0);
+    vec2 normal = vec2(cos(angle), sin(angle));
+    clip_by_edge(stop, normal, radius + dot(normal, centre));
+  }
+}
+
+void clip_by_bound(vec2 stop[3], uint b) {
+  if (is_straight(b)) {
+    clip_by_edge(stop, bound_normal(b), bound_apothem(b));
+  } else if (bound_distance(b, stop[0]) > 0.0 || bound_distance(b, stop[1]) > 0.0 || bound_distance(b, stop[2]) > 0.0) {
+    clip_by_circle(stop, bound_centre(b), bound_radius(b));
+  }
+}
+
+void clip_by_iris(uvec3 t, uint c) {
+  vec2 stop[3] = vec2[3](crossing(t.x, c), crossing(t.y, c), crossing(t.z, c));
+  if (iris_distance(stop[0]) <= 0.0 && iris_distance(stop[1]) <= 0.0 && iris_distance(stop[2]) <= 0.0) return;
+  if ((p.flags & FLAG_CIRCLE) != 0u) {
+    clip_by_circle(stop, vec2(0.0), 1.0);
+  } else {
+    for (uint b = 0u; b < p.bound_count; ++b) clip_by_bound(stop, b);
+  }
+}
+
+// Leaves the open part of a triangle of rays in (u, v).
+void clip_triangle(uvec3 t) {
+  polygon[0] = vec2(0.0);
+  polygon[1] = vec2(1.0, 0.0);
+  polygon[2] = vec2(0.0, 1.0);
+  corner_count = 3;
+  cut(rays[t.x].w - 1.0, rays[t.y].w - 1.0, rays[t.z].w - 1.0);
+  for (uint c = 0u; c < p.crossing_count && corner_count >= 3; ++c) clip_by_iris(t, c);
+}
+
+float twice_polygon_area() {
+  float twice = 0.0;
+  for (int k = 2; k < corner_count; ++k) {
+    vec2 a = polygon[k - 1] - polygon[0], b = polygon[k] - polygon[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice;
+}

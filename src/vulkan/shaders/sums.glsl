@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums in 64-bit fixed point, as two words: integer addition does not depend on the order, so that the picture is the
+// same bits from run to run although many invocations add to a pixel at once.
+#define LARGEST_SUM 1.0e18  // bounds a single value, far above any sum of a frame
+
+// Two's complement of a value, rounded, low word first. Halves of a float's 24 digits are exact.
+uvec2 to_fixed(float value) {
+  float size = floor(min(abs(value), LARGEST_SUM) + 0.5);
+  uint high = uint(size * 2.3283064365386963e-10);
+  uint low = uint(size - float(high) * 4294967296.0);
+  if (value >= 0.0) return uvec2(low, high);
+  return uvec2(~low + 1u, ~high + (low == 0u ? 1u : 0u));
+}
+
+void add_to_channel(uint at, float value) {
+  uvec2 fixed_value = to_fixed(value);
+  if ((fixed_value.x | fixed_value.y) == 0u) return;
+  uint before = atomicAdd(sums[at], fixed_value.x);
+  uint carry = before > ~fixed_value.x ? 1u : 0u;
+  if (fixed_value.y + carry != 0u) atomicAdd(sums[at + 1u], fixed_value.y + carry);
+}
+
+// Adds flux to a pixel of the frame.
+void add_light(int x, int y, float flux) {
+  uint at = 6u * (uint(y) * uint(p.width) + uint(x));
+  for (uint c = 0u; c < 3u; ++c) add_to_channel(at + 2u * c, flux * p.gain[c]);
+}

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The backend: finds devices, and turns every failure of one into an error value.
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/clock.h"
+#include "render/device/frame_device.h"
+#include "vulkan/device_context.h"
+#include "vulkan/grid_frame.h"
+#include "vulkan/instance.h"
+
+namespace contrejour::inline internal {
+namespace vulkan {
+namespace {
+
+constexpr double kLongestWait_s = 10.0, kLongestWaitOfProcessor_s = 300.0;
+
+class VulkanDevice final : public FrameDevice {
+ public:
+  VulkanDevice(std::unique_ptr<Instance> instance, DeviceInfo info, DeviceOptions options)
+      : instance_(std::move(instance)), info_(std::move(info)), options_(std::move(options)) {
+    if (!(options_.longest_wait_s > 0.0))
+      options_.longest_wait_s = info_.kind == "processor" ? kLongestWaitOfProcessor_s : kLongestWait_s;
+  }
+
+  [[nodiscard]] const DeviceInfo& info() const override { return info_; }
+  [[nodiscard]] std::uint64_t memory_bytes() const override { return context_ ? context_->memory_bytes() : 0; }
+
+  // Makes the context now, so that a device that does not start is an error when it is opened.
+  [[nodiscard]] Result<void> start() {
+    return guarded([&] { static_cast<void>(context()); });
+  }
+
+  Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) override {
+    const auto from = Clock::now();
+    DeviceWork work;
+    const auto done = guarded([&] {
+      DeviceContext& device = this->context();
+      const std::uint64_t submissions = device.submissions(), invocations = device.invocations();
+      if (job.grids.empty()) {
+        std::ranges::fill(image.pixels, 0.0F);
+        return;
+      }
+      work = GridFrame(device, info_, job, {}).draw(image, context);
+      work.submissions = device.submissions() - submissions;
+      work.invocations = device.invocations() - invocations;
+    });
+    if (!done) return tl::unexpected(done.error());
+    if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled");
+    work.ms = ms_since(from);
+    return work;
+  }
+
+  Result<DeviceRays> trace(const DeviceGrid& grid) override {
+    DeviceRays out;
+    const auto done = guarded([&] { out = trace_alone(context(), grid); });
+    if (!done) return tl::unexpected(done.error());
+    return out;
+  }
+
+ private:
+  DeviceContext& context() {
+    if (!context_)
+      context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_.longest_wait_s,
+                                                 options_.before_submission);
+    return *context_;
+  }
+
+  [[nodiscard]] DeviceRays trace_alone(DeviceContext& device, const DeviceGrid& grid) const;
+
+  // Calls a function that may fail. After a failure the next call begins with a new context.
+  template <class Work>
+  [[nodiscard]] Result<void> guarded(const Work& work) {
+    std::string message;
+    try {
+      work();
+      return {};
+    } catch (const Hang& hang) {
+      message = hang.what();
+      // It may still run, so that nothing of it may be freed; neither may the instance.
+      static_cast<void>(context_.release());
+      instance_.release();  // NOLINT(bugprone-unused-return-value)
+      if (auto again = Instance::open(options_.on_message)) instance_ = std::move(*again);
+    } catch (const vk::OutOfDeviceMemoryError& error) {
+      message = fmt::format("its memory does not suffice ({})", error.what());
+    } catch (const vk::DeviceLostError& error) {
+      message = fmt::format("it was lost ({})", error.what());
+    } catch (const std::exception& error) {
+      message = error.what();
+    }
+    context_.reset();
+    return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
+                                                       info_.index, info_.name, message));
+  }
+
+  std::unique_ptr<Instance> instance_;
+  DeviceInfo info_;
+  DeviceOptions options_;
+  std::unique_ptr<DeviceContext> context_;
+};
+
+DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {
+  PathData data;
+  Parameters p;
+  data.add(grid, {{}, {1.0, 1.0}}, p);
+  p.side = static_cast<std::uint32_t>(grid.side);
+  device.upload(Slot::Floats, data.floats());
+  device.upload(Slot::Doubles, data.doubles());
+  device.upload(Slot::Integers, data.integers());
+  device.upload(Slot::Tables, data.tables());
+  const std::uint64_t count = ray_count(grid);
+  device.need(Slot::Rays, kRayBytes * count);
+  device.need(Slot::Crossings, kCrossingBytes * count);
+  device.begin();
+  device.dispatch(grid.precision == PacketPrecision::Double ? Shader::TraceDouble : Shader::TraceFloat, p,
+                  groups_of(count, info_));
+  device.barrier();
+  const std::vector<float> rays = device.finish_and_read(Slot::Rays, 4 * count);
+  device.begin();
+  const std::vector<float> crossings = device.finish_and_read(Slot::Crossings, 2 * kMaxStopCrossings * count);
+  DeviceRays out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float height = rays[4 * k + 3];
+    out.sensor_x_mm.push_back(rays[4 * k]);
+    out.sensor_y_mm.push_back(rays[4 * k + 1]);
+    out.transmission.push_back(rays[4 * k + 2]);
+    out.relative_height.push_back(height >= 0.5F * kFailedHeight ? kFailed : height);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(grid.path.stop_crossings()); ++c) {
+      out.stop_x[c].push_back(crossings[2 * (kMaxStopCrossings * k + c)]);
+      out.stop_y[c].push_back(crossings[2 * (kMaxStopCrossings * k + c) + 1]);
+    }
+  }
+  return out;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_index(const std::string& text) {
+  return !text.empty() && text.size() < 4 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+std::string names_of(const std::vector<DeviceInfo>& all) {
+  std::string names;
+  for (const DeviceInfo& info : all)
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", info.index, info.name);
+  return names;
+}
+
+// The device that was asked for, or else the first usable one, GPUs before processors.
+Result<DeviceInfo> chosen(const std::vector<DeviceInfo>& all, const std::string& which) {
+  if (all.empty()) return failure(ErrorCode::Unsupported, "Vulkan lists no device: install a driver for the GPU");
+  if (which.empty()) {
+    const auto rank = [](const DeviceInfo& info) {
+      return !info.is_usable                 ? 9
+             : info.kind == "discrete GPU"   ? 0
+             : info.kind == "integrated GPU" ? 1
+             : info.kind == "processor"      ? 3
+                                             : 2;
+    };
+    const DeviceInfo& best = *std::ranges::min_element(all, {}, rank);
+    if (best.is_usable) return best;
+    return failure(ErrorCode::Unsupported, fmt::format("no device is usable: {}: {}", best.name, best.reason));
+  }
+  const auto matches = [&](const DeviceInfo& info) {
+    return is_index(which) ? info.index == std::stoi(which) : lower(info.name).find(lower(which)) != std::string::npos;
+  };
+  const auto found = std::ranges::find_if(all, matches);
+  if (found == all.end())
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("there is no device '{}'; choose one of {}", which, names_of(all)));
+  if (!found->is_usable)
+    return failure(ErrorCode::Unsupported, fmt::format("device {} is unusable: {}", found->name, found->reason));
+  return *found;
+}
+
+}  // namespace
+}  // namespace vulkan
+
+std::vector<DeviceInfo> frame_devices() {
+  const auto instance = vulkan::Instance::open({});
+  if (!instance) return {};
+  try {
+    return (*instance)->devices();
+  } catch (const std::exception&) {
+    return {};  // a driver that fails to describe its devices offers none
+  }
+}
+
+Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& options) {
+  auto instance = vulkan::Instance::open(options.on_message);
+  if (!instance) return tl::unexpected(instance.error());
+  std::vector<DeviceInfo> all;
+  try {
+    all = (*instance)->devices();
+  } catch (const std::exception& error) {
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("the Vulkan driver fails to describe its devices: {}", error.what()));
+  }
+  const char* const wanted = std::getenv("CONTREJOUR_DEVICE");
+  const auto info = vulkan::chosen(all, !options.which.empty() ? options.which : wanted != nullptr ? wanted : "");
+  if (!info) return tl::unexpected(info.error());
+  auto device = std::make_unique<vulkan::VulkanDevice>(std::move(*instance), *info, options);
+  if (const auto started = device->start(); !started) return tl::unexpected(started.error());
+  return device;
+}
+
+}  // namespace contrejour::inline internal

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The failures of a driver, as vulkan.hpp reports them.
+#include <vulkan/vulkan.hpp>
+
+#include "device.h"
+
+namespace contrejour::test {
+
+void lose_device() { throw vk::DeviceLostError("simulated"); }
+void exhaust_device() { throw vk::OutOfDeviceMemoryError("simulated"); }
+
+}  // namespace contrejour::test

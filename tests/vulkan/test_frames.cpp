@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames drawn by the device against those of the CPU's same method.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contrejour/lens.h"
+#include "device.h"
+#include "render/session/render_frame.h"
+
+using namespace contrejour;
+
+namespace {
+
+LensState lens_of(const std::string& name, int blades = 0, double f_number = 0.0) {
+  const auto prescription = find_lens(name);
+  REQUIRE(prescription.has_value());
+  LensSettings settings;
+  settings.iris.blades = blades;
+  if (f_number > 0.0) settings.f_number = f_number;
+  const auto lens = configure_lens(*prescription, settings);
+  REQUIRE(lens.has_value());
+  return *lens;
+}
+
+FrameSettings settings_of(const LensState& lens, int width = 80, int height = 45) {
+  FrameSettings settings;
+  settings.frame = frame_on_sensor(lens, width, height);
+  settings.wavelengths = 2;
+  return settings;
+}
+
+struct Agreement {
+  double psnr_db = 0, flux_error = 0;  // of the channel that differs most
+};
+
+Agreement agreement_of(const Image& a, const Image& b) {
+  double squares = 0, peak = 0;
+  std::array<double, 3> sum_a{}, sum_b{};
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    squares += std::pow(static_cast<double>(a.pixels[k]) - b.pixels[k], 2);
+    peak = std::max<double>(peak, a.pixels[k]);
+    sum_a[k % 3] += a.pixels[k];
+    sum_b[k % 3] += b.pixels[k];
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(a.pixels.size()));
+  Agreement agreement{rms > 0.0 ? 20.0 * std::log10(peak / rms) : 200.0, 0.0};
+  for (std::size_t c = 0; c < 3; ++c)
+    agreement.flux_error = std::max(agreement.flux_error, std::abs(sum_b[c] / sum_a[c] - 1.0));
+  return agreement;
+}
+
+Flare frame_by(const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
+               const FrameSettings& settings, RenderCache& cache) {
+  auto flare = render_frame(method, {lens, lights, settings, cache}, {});
+  REQUIRE_MESSAGE(flare.has_value(), (flare ? std::string() : flare.error().message));
+  return std::move(*flare);
+}
+
+// A cache with a device; its device is null where there is none.
+struct OnDevice {
+  RenderCache cache;
+  KeptDevice& kept = *cache.section<KeptDevice>({});
+  explicit OnDevice(DeviceOptions options = {}) {
+    kept.device = test::open_device(std::move(options));
+    kept.is_required = true;
+  }
+};
+
+const std::vector<Light> kTwoLights{{.direction = direction_from_angles(0.11, 0.06)},
+                                    {.direction = direction_from_angles(-0.05, 0.13), .value = {4.0, 2.0, 1.0}}};
+
+// Compares a method on both sides.
+void check_same(OnDevice& device, const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
+                const FrameSettings& settings, double least_db = 60.0) {
+  RenderCache on_cpu;
+  const Flare exact = frame_by(method, lens, lights, settings, on_cpu);
+  const Flare got = frame_by(method, lens, lights, settings, device.cache);
+  CHECK(got.statistics.device == device.kept.device->info().name);
+  CHECK(got.statistics.rays == exact.statistics.rays);
+  const Agreement c = agreement_of(exact.image, got.image);
+  INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
+  CHECK(c.psnr_db > least_db);
+  CHECK(c.flux_error < 1e-3);
+}
+
+MethodOptions bundle_of(int rays) { return BundleOptions{.grid = {.rays = rays}}; }
+MethodOptions tiled_of(int rays) { return TiledOptions{.grid = {.rays = rays}}; }
+
+}  // namespace
+
+TEST_CASE("bundle and tiled draw every bundled lens on the device as on the CPU [slow]") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  int blades = 0;
+  for (const BundledLens& bundled : bundled_lenses()) {
+    blades = (blades + 5) % 9;
+    const LensState lens = lens_of(std::string(bundled.name), blades < 3 ? 0 : blades);
+    FrameSettings settings = settings_of(lens, 64, 36);
+    settings.selection = SelectBrightest{6};
+    check_same(device, bundle_of(24), lens, std::span(kTwoLights).first(1), settings);
+    check_same(device, tiled_of(24), lens, std::span(kTwoLights).first(1), settings);
+  }
+  test::check_no_messages();
+}
+
+TEST_CASE("several lights, near lights, shifted ghosts and a window of the frame are drawn as on the CPU") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar", 7, 8.0);
+  FrameSettings settings = settings_of(lens, 96, 54);
+  settings.selection = SelectBrightest{12};
+  check_same(device, bundle_of(48), lens, kTwoLights, settings);
+  settings.frame.origin_x = 27;
+  settings.frame.origin_y = 11;
+  settings.frame.width = 55;
+  settings.frame.height = 40;
+  std::vector<Light> near = kTwoLights;
+  near.back().distance_mm = 800.0;
+  check_same(device, bundle_of(32), lens, near, settings);
+  check_same(device, tiled_of(32), lens, near, settings);
+}
+
+TEST_CASE("every interpolation of tiled is the CPU's") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar");
+  FrameSettings settings = settings_of(lens);
+  settings.selection = SelectBrightest{4};
+  using Interpolation = TiledOptions::Interpolation;
+  for (const auto interpolation : {Interpolation::Triangle, Interpolation::HomogeneousTriangle,
+                                   Interpolation::MeanValue, Interpolation::Wachspress, Interpolation::LoopDeRose})
+    check_same(device, TiledOptions{.grid = {.rays = 32}, .interpolation = interpolation}, lens,
+               std::span(kTwoLights).first(1), settings);
+}
+
+TEST_CASE("a frame is the same bits from run to run, and from a device that drew others") {
+  OnDevice device, fresh;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar"), other = lens_of("canon-70-200");
+  FrameSettings settings = settings_of(lens), others = settings_of(other, 64, 36);
+  settings.selection = others.selection = SelectBrightest{5};
+  for (const MethodOptions& method : {bundle_of(32), tiled_of(32)}) {
+    const Flare first = frame_by(method, lens, kTwoLights, settings, device.cache);
+    static_cast<void>(frame_by(method, other, std::span(kTwoLights).first(1), others, device.cache));
+    CHECK(frame_by(method, lens, kTwoLights, settings, device.cache).image.pixels == first.image.pixels);
+    CHECK(frame_by(method, lens, kTwoLights, settings, fresh.cache).image.pixels == first.image.pixels);
+  }
+}
+
+TEST_CASE("what a device cannot draw the CPU draws, and the statistics say so") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar");
+  RenderCache on_cpu;
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.selection = SelectBrightest{2};
+  const auto lights = std::span(kTwoLights).first(1);
+  for (const MethodOptions& method : {MethodOptions(BundleOptions{.grid = {.rays = 32}, .mirror_symmetry = true}),
+                                      MethodOptions(AdaptiveOptions{})}) {
+    const Flare got = frame_by(method, lens, lights, settings, device.cache);
+    CHECK(got.statistics.device.starts_with("cpu ("));
+    CHECK(got.image.pixels == frame_by(method, lens, lights, settings, on_cpu).image.pixels);
+  }
+}
+
+TEST_CASE("a device that is lost, hangs or is full fails one frame, and draws the next") {
+  const LensState lens = lens_of("heliar");
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.selection = SelectBrightest{2};
+  const auto lights = std::span(kTwoLights).first(1);
+  enum class Failure { None, Lost, Memory } failure = Failure::None;
+  OnDevice device({.before_submission = [&](std::uint64_t) {
+    if (failure == Failure::Lost) test::lose_device();
+    if (failure == Failure::Memory) test::exhaust_device();
+  }});
+  if (!device.kept.device) return;
+  const Flare whole = frame_by(bundle_of(32), lens, lights, settings, device.cache);
+  for (const Failure now : {Failure::Lost, Failure::Memory}) {
+    failure = now;
+    const auto lost = render_frame(bundle_of(32), {lens, lights, settings, device.cache}, {});
+    REQUIRE_FALSE(lost.has_value());
+    CHECK(lost.error().message.find(now == Failure::Lost ? "lost" : "memory") != std::string::npos);
+    device.kept.is_required = false;
+    CHECK(frame_by(bundle_of(32), lens, lights, settings, device.cache).statistics.device.starts_with("cpu ("));
+    failure = Failure::None;
+    device.kept.is_required = true;
+    CHECK(frame_by(bundle_of(32), lens, lights, settings, device.cache).image.pixels == whole.image.pixels);
+  }
+  test::check_no_messages();
+}
+
+TEST_CASE("a submission that takes longer than the limit fails its frame, and the process lives [slow]") {
+  OnDevice device({.longest_wait_s = 1e-9});
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar");
+  FrameSettings settings = settings_of(lens);
+  settings.selection = SelectBrightest{2};
+  const auto slow = render_frame(bundle_of(64), {lens, kTwoLights, settings, device.cache}, {});
+  REQUIRE_FALSE(slow.has_value());
+  CHECK(slow.error().message.find("no answer") != std::string::npos);
+  device.kept.is_required = false;
+  CHECK(frame_by(bundle_of(32), lens, kTwoLights, settings, device.cache).statistics.device.starts_with("cpu ("));
+  test::messages().clear();  // the layer reports what was left behind
+}
+
+TEST_CASE("the device's memory stays as it is over many frames") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState heliar = lens_of("heliar"), closed = lens_of("heliar", 6, 11.0);
+  std::uint64_t after_first = 0;
+  for (int k = 0; k < 200; ++k) {
+    const LensState& lens = k % 2 == 0 ? heliar : closed;
+    const std::vector<Light> lights{{.direction = direction_from_angles(0.001 * k, 0.05)}};
+    FrameSettings settings = settings_of(lens, 32 + k % 5 * 8, 32);
+    settings.wavelengths = 1;
+    settings.selection = SelectBrightest{2};
+    static_cast<void>(frame_by(k % 3 == 0 ? tiled_of(16) : bundle_of(16), lens, lights, settings, device.cache));
+    if (k == 20) after_first = device.kept.device->memory_bytes();
+  }
+  CHECK(device.kept.device->memory_bytes() == after_first);
+  test::check_no_messages();
+}

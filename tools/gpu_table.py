@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Time frames on a device against the CPU: the one table of docs/gpu.md, on any machine.
+
+    gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...]
+
+Each row is a lens and a method: the median time of a frame on the CPU and on the device, their ratio, the device's part
+of its frame, and the difference of the pictures in dB. A frame is timed after one of the same sequence has warmed the
+program: every run renders three frames, and the last is taken. CONTREJOUR_DEVICE chooses the device.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+LENSES = ["heliar", "canon-70-200", "nikon-80-200"]
+METHODS = ["bundle", "tiled"]
+
+
+def run(program, arguments):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"gpu_table.py: {' '.join(arguments)}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def last_frame(options, lens, method, device, folder):
+    """The statistics of the last of three frames, and its file."""
+    output = folder / f"{device}.####.exr"
+    lines = run(options.program, ["render", lens, "-o", str(output), "--frames", "1-3", "--json", "--method", method,
+                                  "--device", device, "--size", options.size, "--grid", str(options.grid),
+                                  "--wavelengths", str(options.wavelengths)]).splitlines()
+    frames = [json.loads(line) for line in lines if '"statistics"' in line]
+    return frames[-1]["statistics"], folder / f"{device}.0003.exr"
+
+
+def row(options, lens, method, folder):
+    times = {"cpu": [], "vulkan": []}
+    files, latest = {}, {}
+    for _ in range(options.runs):
+        for device in times:
+            latest[device], files[device] = last_frame(options, lens, method, device, folder)
+            times[device].append(dict(latest[device]["time_ms"])["total"])
+    cpu, gpu = (statistics.median(times[device]) for device in ("cpu", "vulkan"))
+    drawn = dict(latest["vulkan"]["time_ms"]).get("device", float("nan"))
+    difference = json.loads(run(options.program, ["compare", str(files["cpu"]), str(files["vulkan"]), "--json"]))
+    return (f"| {lens} | {method} | {cpu:.1f} | {gpu:.1f} | {gpu / cpu:.2f} | {drawn:.1f} | "
+            f"{difference['psnr_db']:.1f} | {latest['vulkan']['rays']} | {latest['vulkan']['primitives']} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--size", default="1920x1080")
+    parser.add_argument("--grid", type=int, default=256)
+    parser.add_argument("--wavelengths", type=int, default=3)
+    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--lens", nargs="*", default=LENSES)
+    options = parser.parse_args()
+    devices = json.loads(run(options.program, ["devices", "--json"]))
+    usable = [f"{device['name']} ({device['driver']})" for device in devices if device["usable"]]
+    print(f"{options.size}, {options.grid} rays a side, {options.wavelengths} wavelengths; devices: {', '.join(usable)}\n")
+    print("| Lens | Method | CPU, ms | Device, ms | Ratio | of it drawing, ms | dB | Rays | Polygons |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for lens in options.lens:
+            for method in METHODS:
+                print(row(options, lens, method, pathlib.Path(folder)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
