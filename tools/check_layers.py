@@ -46,6 +46,7 @@ FOLDERS = {
     "src/machine": "machine",
     "src/sequence": "sequence",
     "src/measure": "measure",
+    "src/polynomial": "polynomial",
     "src/requests": "requests",
     "src/c_interface": "c_interface",
     "src/vulkan": "vulkan",
@@ -160,6 +161,7 @@ PUBLIC = {
     "expert/renderer_settings.h": "compositing",
     "expert/pixel_grid.h": "compositing",
     "expert/plate.h": "plates",
+    "expert/polynomial.h": "polynomial",
 }
 
 # "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
@@ -178,6 +180,7 @@ MAY_INCLUDE = {
     "drawing": ["ghosts", "image"],
     "diffraction": ["lens", "image"],
     "render/pupils": ["ghosts"],
+    "polynomial": ["render/pupils", "ghosts"],
     "render/radiometry": ["render/pupils", "ghosts", "image"],
     "render/planning": ["render/radiometry", "lens", "ghosts", "image"],
     "renderer": ["render/device", "render/stop_patterns", "render/ray_maps", "render/pupils", "render/planning", "trace", "ghosts",
@@ -221,8 +224,9 @@ FENCED = [
     (r"yaml-cpp/", ("src/base",), "one wrapper that keeps its exceptions in"),
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
     (r"OpenImageIO/|OpenColorIO/", ("src/plate_modules",), "modules of their own, loaded when they are needed first"),
-    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/pupils", "src/measure/fit"),
-     "one wrapper of the eigen solver, three of least squares"),
+    (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/pupils", "src/measure/fit",
+                "src/polynomial"),
+     "one wrapper of the eigen solver, four of least squares"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

@@ -139,6 +139,7 @@ void set_up(CLI::App& app, Action& action) {
   add_preset(app, action);
   add_coating(app, action);
   add_measure(app, action);
+  add_polynomial(app, action);
   add_bench(app, action);
 }
 

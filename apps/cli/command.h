@@ -29,6 +29,7 @@ void add_preset(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_coating(CLI::App& app, Action& action);
 void add_measure(CLI::App& app, Action& action);
+void add_polynomial(CLI::App& app, Action& action);
 void add_lights(CLI::App& app, Action& action);
 void add_farm(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);
@@ -52,6 +53,8 @@ void add_measure_merge(CLI::App& measure, Action& action);
 void add_measure_fit(CLI::App& measure, Action& action);
 void add_measure_demo(CLI::App& measure, Action& action);
 void add_measure_predict(CLI::App& measure, Action& action);
+
+void add_polynomial_export(CLI::App& polynomial, Action& action);
 
 void add_lights_track(CLI::App& lights, Action& action);
 void add_lights_import(CLI::App& lights, Action& action);

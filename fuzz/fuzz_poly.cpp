@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as a file of polynomials: what is read is written as the same values, and evaluates without reading beyond
+// its coefficients.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "contrejour/expert/polynomial.h"
+
+namespace {
+
+using namespace contrejour;
+
+void demand(bool holds) {
+  if (!holds) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto read = read_polynomials({reinterpret_cast<const char*>(data), size}, "fuzz.poly");
+  if (!read) return 0;
+  const std::string written = write_polynomials(*read);
+  const auto again = read_polynomials(written, "again.poly");
+  demand(again.has_value() && write_polynomials(*again) == written);
+  const double traced = traced_flux_fraction(*read);
+  demand(traced >= 0.0 && traced <= 1.0);
+  for (const GhostPolynomials& ghost : read->ghosts)
+    for (const PolynomialZone& zone : ghost.zones)
+      if (zone.state == PolynomialZone::State::Fitted)
+        static_cast<void>(evaluate(*read, zone, zone.field_high, {0.1, 0.2}, 550.0));
+  return 0;
+}

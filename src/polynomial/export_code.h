@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions that exported source code consists of, besides its tables, in each language.
+#pragma once
+
+#include <string_view>
+
+namespace contrejour::inline internal::polynomial {
+
+// @ stands for the prefix of all names.
+
+inline constexpr std::string_view kCodeInC = R"code(
+static double @value(const int *sum, const double *tu, const double *tv, const double *tw, const double *tl) {
+  const float *c = @coefficients + sum[2];
+  double total = 0.0;
+  for (int l = 0; l < sum[1]; ++l) {
+    double part = 0.0;
+    for (int v = 0; v <= sum[0]; ++v)
+      for (int w = 0; w <= sum[0] - v; ++w)
+        for (int u = 0; u <= sum[0] - v - w; ++u) part += *c++ * tv[v] * tw[w] * tu[u];
+    total += tl[l] * part;
+  }
+  return total;
+}
+
+static void @chebyshev(double x, double *t) {
+  t[0] = 1.0;
+  t[1] = x;
+  for (int k = 2; k < 13; ++k) t[k] = 2.0 * x * t[k - 1] - t[k - 2];
+}
+
+int @ray(int ghost, double field, double x_mm, double y_mm, double lambda_nm, double *out) {
+  for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
+    const double *zone = @zones + 5 * k;
+    if (field < zone[0] || field > zone[1]) continue;
+    const int *parts = @parts + 3 * k;
+    const int *sum = @sums + 3 * parts[0];
+    double tu[13], tv[13], tw[13], tl[13];
+    const double low = zone[0] * zone[0], high = zone[1] * zone[1];
+    const double u = (2.0 * field * field - low - high) / (high - low), h = field / zone[1];
+    const double px = (x_mm - (zone[2] + zone[3] * u) * field) / zone[4], py = y_mm / zone[4];
+    @chebyshev(u, tu);
+    @chebyshev(h * px, tv);
+    @chebyshev(2.0 * (px * px + py * py) - 1.0, tw);
+    @chebyshev((2.0 / (lambda_nm * lambda_nm) - @SHORTEST - @LONGEST) / (@SHORTEST - @LONGEST), tl);
+    for (int i = 0; i < 10; ++i) out[i] = 0.0;
+    for (int i = 0; i <= parts[1]; ++i, sum += 6) {
+      const double a = @value(sum, tu, tv, tw, tl), b = @value(sum + 3, tu, tv, tw, tl);
+      out[2 * i] = h * a + px * b;
+      out[2 * i + 1] = py * b;
+    }
+    for (int i = 0; i < parts[2]; ++i, sum += 3) {
+      const double squared = @value(sum, tu, tv, tw, tl);
+      if (squared > out[8]) out[8] = squared;
+    }
+    out[9] = @value(sum, tu, tv, tw, tl);
+    return 1;
+  }
+  return 0;
+}
+)code";
+
+inline constexpr std::string_view kCodeInGlsl = R"code(
+float @value(int sum, float tu[13], float tv[13], float tw[13], float tl[13]) {
+  int degree = @sums[3 * sum], c = @sums[3 * sum + 2];
+  float total = 0.0;
+  for (int l = 0; l < @sums[3 * sum + 1]; ++l) {
+    float part = 0.0;
+    for (int v = 0; v <= degree; ++v)
+      for (int w = 0; w <= degree - v; ++w)
+        for (int u = 0; u <= degree - v - w; ++u) part += @coefficients[c++] * tv[v] * tw[w] * tu[u];
+    total += tl[l] * part;
+  }
+  return total;
+}
+
+void @chebyshev(float x, out float t[13]) {
+  t[0] = 1.0;
+  t[1] = x;
+  for (int k = 2; k < 13; ++k) t[k] = 2.0 * x * t[k - 1] - t[k - 2];
+}
+
+bool @ray(int ghost, float field, float x_mm, float y_mm, float lambda_nm, out float result[10]) {
+  for (int i = 0; i < 10; ++i) result[i] = 0.0;
+  for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
+    float low = @zones[5 * k], high = @zones[5 * k + 1];
+    if (field < low || field > high) continue;
+    int sum = @parts[3 * k];
+    float tu[13], tv[13], tw[13], tl[13];
+    float u = (2.0 * field * field - low * low - high * high) / (high * high - low * low), h = field / high;
+    float px = (x_mm - (@zones[5 * k + 2] + @zones[5 * k + 3] * u) * field) / @zones[5 * k + 4];
+    float py = y_mm / @zones[5 * k + 4];
+    @chebyshev(u, tu);
+    @chebyshev(h * px, tv);
+    @chebyshev(2.0 * (px * px + py * py) - 1.0, tw);
+    float ratio = 550.0 / lambda_nm;
+    @chebyshev((2.0 * ratio * ratio - 302500.0 * (@SHORTEST + @LONGEST)) / (302500.0 * (@SHORTEST - @LONGEST)), tl);
+    for (int i = 0; i <= @parts[3 * k + 1]; ++i, sum += 2) {
+      float a = @value(sum, tu, tv, tw, tl), b = @value(sum + 1, tu, tv, tw, tl);
+      result[2 * i] = h * a + px * b;
+      result[2 * i + 1] = py * b;
+    }
+    for (int i = 0; i < @parts[3 * k + 2]; ++i, ++sum)
+      result[8] = max(result[8], @value(sum, tu, tv, tw, tl));
+    result[9] = @value(sum, tu, tv, tw, tl);
+    return true;
+  }
+  return false;
+}
+)code";
+
+inline constexpr std::string_view kCodeInPython = R"code(
+
+def @value(index, tu, tv, tw, tl):
+    degree, terms, c = @sums[3 * index : 3 * index + 3]
+    total = 0.0
+    for l in range(terms):
+        part = 0.0
+        for v in range(degree + 1):
+            for w in range(degree - v + 1):
+                for u in range(degree - v - w + 1):
+                    part += @coefficients[c] * tv[v] * tw[w] * tu[u]
+                    c += 1
+        total += tl[l] * part
+    return total
+
+
+def @chebyshev(x):
+    t = [1.0, x]
+    while len(t) < 13:
+        t.append(2.0 * x * t[-1] - t[-2])
+    return t
+
+
+def @ray(ghost, field, x_mm, y_mm, lambda_nm):
+    for k in range(@first_zone[ghost], @first_zone[ghost + 1]):
+        low, high, centre, slope, radius = @zones[5 * k : 5 * k + 5]
+        if field < low or field > high:
+            continue
+        at, crossings, rims = @parts[3 * k : 3 * k + 3]
+        u = (2.0 * field * field - low * low - high * high) / (high * high - low * low)
+        h = field / high
+        px, py = (x_mm - (centre + slope * u) * field) / radius, y_mm / radius
+        bases = (
+            @chebyshev(u),
+            @chebyshev(h * px),
+            @chebyshev(2.0 * (px * px + py * py) - 1.0),
+            @chebyshev((2.0 / lambda_nm**2 - @SHORTEST - @LONGEST) / (@SHORTEST - @LONGEST)),
+        )
+        out = [0.0] * 10
+        for i in range(crossings + 1):
+            a, b = @value(at, *bases), @value(at + 1, *bases)
+            out[2 * i], out[2 * i + 1] = h * a + px * b, py * b
+            at += 2
+        for _ in range(rims):
+            out[8] = max(out[8], @value(at, *bases))
+            at += 1
+        out[9] = @value(at, *bases)
+        return out
+    return None
+)code";
+
+}  // namespace contrejour::inline internal::polynomial

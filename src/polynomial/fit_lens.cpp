@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/split_mix.h"
+#include "base/tasks.h"
+#include "contrejour/expert/check_lens.h"
+#include "polynomial/chebyshev_basis.h"
+#include "polynomial/fit_zone.h"
+
+namespace contrejour::inline internal::polynomial {
+namespace {
+
+constexpr double kBeyondCorner = 1.1;  // of the tangent of the corner's angle
+constexpr double kPixelsAcross = 1920.0;
+constexpr int kMaxHalvings = 4;
+
+double largest_field(const LensState& lens, const PolynomialOptions& options) {
+  if (options.half_field_rad > 0.0) return std::tan(options.half_field_rad);
+  const Vec3 corner = direction_for_image_point(lens, {0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm},
+                                                lens.design_wavelength_nm);
+  return kBeyondCorner * std::hypot(corner.x, corner.y) / corner.z;
+}
+
+LensState wide_open(const LensState& lens) {
+  LensState open = lens;
+  open.stop_radius_mm = lens.surfaces[static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm;
+  return open;
+}
+
+Result<void> check_options(const PolynomialOptions& options) {
+  if (options.max_order < 5 || options.max_order > 2 * kMaxDegree + 1 || options.max_order % 2 == 0)
+    return invalid_argument(fmt::format("the largest order is {}; choose 5, 7, 9, 11 or 13", options.max_order));
+  if (options.max_halvings < 0 || options.max_halvings > kMaxHalvings)
+    return invalid_argument(fmt::format("the field cannot be halved {} times; choose 0 to 4", options.max_halvings));
+  for (const double tolerance : {options.position_px, options.edge, options.transmittance, options.target_px})
+    if (!(tolerance > 0.0 && tolerance < 1e6))
+      return invalid_argument("the tolerances of a polynomial fit must be above 0");
+  if (!(options.half_field_rad >= 0.0 && options.half_field_rad < 1.5))
+    return invalid_argument("the half field of a polynomial fit must be 0 to 85 degrees");
+  return {};
+}
+
+bool is_fitted(const LensState& lens, const Ghost& ghost) {
+  return has_axial_symmetry(lens, ghost) && ghost.order == std::array<int, 2>{0, 0} &&
+         !ghost_path(lens, ghost, lens.design_wavelength_nm).obscured;
+}
+
+bool is_traced(const PolynomialZone& zone) { return zone.state == PolynomialZone::State::Traced; }
+
+// The zones from one field to another: one, or the halves of its area if that serves a part of it.
+std::vector<PolynomialZone> fit_zones(const ZoneProblem& problem, double low, double high, int halvings) {
+  std::vector<PolynomialZone> whole{fit_zone(problem, low, high)};
+  if (!is_traced(whole.front()) || halvings == 0) return whole;
+  const double middle = std::sqrt(0.5 * (low * low + high * high));
+  std::vector<PolynomialZone> parts = fit_zones(problem, low, middle, halvings - 1);
+  for (PolynomialZone& zone : fit_zones(problem, middle, high, halvings - 1)) parts.push_back(std::move(zone));
+  return std::ranges::all_of(parts, is_traced) ? whole : parts;
+}
+
+GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps, const LensPolynomials& all,
+                           const PolynomialOptions& options, const Ghost& ghost) {
+  if (!is_fitted(lens, ghost)) {
+    PolynomialZone traced;
+    traced.state = PolynomialZone::State::Traced;
+    traced.field_high = all.max_field;
+    return {ghost, {traced}};
+  }
+  const GhostRays rays(lens, steps, ghost, all.entrance_z_mm);
+  const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
+  return {ghost, fit_zones({all, options, rays, sensor_half_mm}, 0.0, all.max_field, options.max_halvings)};
+}
+
+class Fingerprint {
+ public:
+  // Seven digits: compilers may differ in the last ones.
+  void add(double value) {
+    for (const char c : fmt::format("{:.6e};", value)) hash_ = split_mix(hash_ ^ static_cast<unsigned char>(c));
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = kSplitMixIncrement;
+};
+
+}  // namespace
+}  // namespace contrejour::inline internal::polynomial
+
+namespace contrejour {
+
+using namespace polynomial;
+
+std::uint64_t polynomial_fingerprint(const LensState& lens) {
+  Fingerprint fingerprint;
+  fingerprint.add(lens.sensor_z_mm);
+  for (const double lambda_nm : {450.0, 550.0, 650.0}) {
+    const ReflectanceTables tables(lens, lambda_nm);
+    for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
+      const SurfaceState& surface = lens.surfaces[k];
+      fingerprint.add(surface.z_mm);
+      if (surface.kind == SurfaceKind::Stop) continue;
+      fingerprint.add(surface.curvature_per_mm);
+      fingerprint.add(surface.semi_diameter_mm);
+      fingerprint.add(refractive_index(surface.before, lambda_nm));
+      fingerprint.add(refractive_index(surface.after, lambda_nm));
+      fingerprint.add(surface.is_centred() ? 0.0
+                                           : surface.pose.shift_mm.x + 2.0 * surface.pose.shift_mm.y +
+                                                 3.0 * surface.pose.axis.x + 5.0 * surface.pose.axis.y);
+      const auto sag = sag_range(surface.curvature_per_mm, surface.shape, 0.7 * surface.semi_diameter_mm);
+      fingerprint.add(sag ? sag->low_mm + 2.0 * sag->high_mm : 0.0);
+      const int at = tables.of(static_cast<int>(k)).reflectance[0];
+      for (const int node : {ReflectanceTables::kIntervals, ReflectanceTables::kIntervals / 2})
+        fingerprint.add(at >= 0 ? tables.values()[at + node] : 0.0);
+    }
+  }
+  return fingerprint.value();
+}
+
+Result<LensPolynomials> fit_polynomials(const LensState& lens, const PolynomialOptions& options,
+                                        const Context& context) {
+  if (const auto good = check_lens(lens); !good) return tl::unexpected(good.error());
+  if (const auto good = check_options(options); !good) return tl::unexpected(good.error());
+  const LensState open = wide_open(lens);
+  const TablesByWavelength tables(open);
+  const StepsByWavelength steps(open, tables);
+  LensPolynomials all;
+  all.lens = lens.name;
+  all.fingerprint = polynomial_fingerprint(lens);
+  all.entrance_z_mm = entrance_window(open, LightSource({0.0, 0.0, 1.0})).z_mm;
+  all.stop_radius_mm = open.stop_radius_mm;
+  all.pixel_mm = lens.sensor_width_mm / kPixelsAcross;
+  all.max_field = largest_field(lens, options);
+  const std::vector<Ghost> ghosts = enumerate_ghosts(lens, options.scope, options.reflections);
+  std::vector<GhostPolynomials> fitted(ghosts.size());
+  const bool done = parallel_for(ghosts.size(), context,
+                                 [&](std::size_t k) { fitted[k] = fit_ghost(open, steps, all, options, ghosts[k]); });
+  if (!done) return interrupted();
+  all.ghosts = std::move(fitted);
+  return all;
+}
+
+double traced_flux_fraction(const LensPolynomials& polynomials) {
+  double traced = 0.0, sum = 0.0;
+  for (const GhostPolynomials& ghost : polynomials.ghosts) {
+    for (const PolynomialZone& zone : ghost.zones) {
+      const double flux = zone.flux_mm2 * (zone.field_high * zone.field_high - zone.field_low * zone.field_low);
+      sum += flux;
+      if (is_traced(zone)) traced += flux;
+    }
+  }
+  return sum > 0.0 ? traced / sum : 0.0;
+}
+
+}  // namespace contrejour

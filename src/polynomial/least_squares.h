@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Least squares by QR in double: coefficients of polynomials from weighted rays. Householder's QR keeps the accuracy
+// that normal equations lose, as they square the condition number (1e5 for order 9).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace contrejour::inline internal::polynomial {
+
+// Row-major, one row a sample.
+struct Rows {
+  std::size_t columns = 0;
+  std::vector<double> values;
+
+  [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+};
+
+class LeastSquares {
+ public:
+  explicit LeastSquares(const Rows& matrix);
+  ~LeastSquares();
+  LeastSquares(LeastSquares&&) noexcept;
+  LeastSquares& operator=(LeastSquares&&) noexcept;
+
+  // The unknowns that fit one right-hand side best.
+  [[nodiscard]] std::vector<double> solve(std::span<const double> right) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace contrejour::inline internal::polynomial
