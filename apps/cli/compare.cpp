@@ -9,15 +9,17 @@
 
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/options.h"
 #include "contrejour/expert/metrics.h"
-#include "contrejour/image_io.h"
+#include "contrejour/expert/plate.h"
 
 namespace contrejour::cli {
 namespace {
 
 constexpr const char* kCompareExamples =
     "PSNR is 10 log10(P^2 / mean square error) over the RGB samples, with both pictures clipped at P and -P, where\n"
-    "P is the 99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel.\n\n"
+    "P is the 99.9th percentile of A. The flux ratio is the sum of B over the sum of A, per channel. Pictures are\n"
+    "EXR, PNG, DPX, TIFF, JPEG or HDR, and are compared in scene-linear values.\n\n"
     "Examples:\n"
     "  contrejour compare reference.exr bundle.exr\n"
     "  contrejour compare reference.exr bundle.exr --json\n"
@@ -26,6 +28,7 @@ constexpr const char* kCompareExamples =
 struct CompareOptions {
   std::string a, b;
   std::vector<std::string> layers, parts;  // one for both pictures, or one for A and one for B
+  PlateColour colour;
   bool json = false;
 };
 
@@ -69,17 +72,18 @@ std::string comparison_text(const Comparison& c) {
 }
 
 Result<int> run_compare(const CompareOptions& options) {
-  const auto a = read_picture(options.a, read_options(options, 0));
-  if (!a) return tl::unexpected(a.error());
-  const auto b = read_picture(options.b, read_options(options, 1));
-  if (!b) return tl::unexpected(b.error());
-  const auto comparison = compare(a->rgb, b->rgb);
+  const auto plate_a = read_plate(options.a, read_options(options, 0), options.colour);
+  if (!plate_a) return tl::unexpected(plate_a.error());
+  const auto plate_b = read_plate(options.b, read_options(options, 1), options.colour);
+  if (!plate_b) return tl::unexpected(plate_b.error());
+  const Picture &a = plate_a->picture, &b = plate_b->picture;
+  const auto comparison = compare(a.rgb, b.rgb);
   if (!comparison) {
     Error error = comparison.error();
     error.position.file = options.b;
     return tl::unexpected(error);
   }
-  if (a->data_window.x != b->data_window.x || a->data_window.y != b->data_window.y) {
+  if (a.data_window.x != b.data_window.x || a.data_window.y != b.data_window.y) {
     print_warnings({"the data windows have different positions; pixels are compared by their order in the files"});
   }
   if (options.json) {
@@ -102,6 +106,7 @@ void add_compare(CLI::App& app, Action& action) {
   add_names(*command, "--part", options->parts,
             "the part of EXR files to read, by name or by number from 0; give it twice for different parts of A and B");
   command->add_flag("--json", options->json, "print JSON");
+  add_plate_colour(*command, options->colour, PlateUse::Read);
   command->footer(kCompareExamples);
   command->callback([options, &action] {
     check_names("--layer", options->layers);

@@ -126,16 +126,19 @@ void add_picture_choice(CLI::App& command, ReadOptions& read) {
 
 void add_plate_colour(CLI::App& command, PlateColour& colour, PlateUse use) {
   constexpr const char* kGroup = "Colour spaces";
-  command
-      .add_option("--input-space", colour.input_space,
-                  "the colour space of the picture's values, by its name in the OpenColorIO configuration "
-                  "(default: linear for floats, sRGB for integers)")
-      ->option_text("NAME")
-      ->group(kGroup);
-  if (use == PlateUse::ReadAndWrite)
+  if (use != PlateUse::Write)
+    command
+        .add_option("--input-space", colour.input_space,
+                    "the colour space of the picture's values, by its name in the OpenColorIO configuration "
+                    "(default: linear for floats, sRGB for integers)")
+        ->option_text("NAME")
+        ->group(kGroup);
+  if (use != PlateUse::Read)
     command
         .add_option("--output-space", colour.output_space,
-                    "the colour space to write (default: the input's in the same format)")
+                    use == PlateUse::Write ? "the colour space to write, by its name in the OpenColorIO configuration "
+                                             "(default: linear for floats, sRGB for integers)"
+                                           : "the colour space to write (default: the input's in the same format)")
         ->option_text("NAME")
         ->group(kGroup);
   command

@@ -49,8 +49,9 @@ CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number,
 // Adds --layer and --part, which choose the picture to read from an EXR file.
 void add_picture_choice(CLI::App& command, ReadOptions& read);
 
-// Adds --input-space and --ocio-config, and --output-space to a command that writes the picture.
-enum class PlateUse { Read, ReadAndWrite };
+// Adds the options of a command's colour spaces: --ocio-config, --input-space where it reads the picture, and
+// --output-space where it writes it.
+enum class PlateUse { Read, Write, ReadAndWrite };
 void add_plate_colour(CLI::App& command, PlateColour& colour, PlateUse use);
 
 [[nodiscard]] std::string lower_extension(const std::string& file);

@@ -59,6 +59,8 @@ Result<int> render_still(const RenderOptions& options) {
 
 Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
   if (auto ok = check_layer_options(options.layers, options.output, "-o"); !ok) return tl::unexpected(ok.error());
+  if (options.layers.on() && !options.colour.output_space.empty())
+    return failure(ErrorCode::InvalidArgument, "layers are scene-linear: leave out --output-space", {options.output});
   const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
@@ -82,13 +84,16 @@ void add_render(CLI::App& app, Action& action) {
   const auto sequence = std::make_shared<SequenceOptions>();
   CLI::App* command = app.add_subcommand("render", "render the flare of lights in a lens as an image");
   add_lens_argument(*command, options->lens)->required(false);
-  add_output(*command, "-o,--output", options->output, {".exr", ".png"}, "the image of the flare")->required();
+  add_output(*command, "-o,--output", options->output,
+             {".exr", ".png", ".dpx", ".tif", ".tiff", ".jpg", ".jpeg", ".hdr"}, "the image of the flare")
+      ->required();
   add_output(*command, "--preview", options->preview, {".png"}, "a preview as PNG");
   add_output(*command, "--stats", options->stats, {".json"}, "statistics of the rendering: times and counts");
   command->add_flag("--json", options->json, "print a report as JSON; in a sequence, one line for each frame");
   add_sequence_options(*command, *sequence, SequenceInput::None);
   add_preset_options(*command, options->preset);
   add_layer_options(*command, options->layers);
+  add_plate_colour(*command, options->colour, PlateUse::Write);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",

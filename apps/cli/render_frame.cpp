@@ -34,11 +34,14 @@ Result<PictureRequest> request_of(const RenderOptions& options, const FlareSourc
 
 Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& preview, const Context& context) {
   const auto& [planned, flare, layers] = rendered;
-  if (lower_extension(planned.options.output) == ".png")
-    return write_preview_png(*planned.files.output, flare.image, preview, context);
+  const std::string ending = lower_extension(planned.options.output);
+  const bool is_linear = planned.options.colour.output_space.empty();
+  if (ending == ".png" && is_linear) return write_preview_png(*planned.files.output, flare.image, preview, context);
   Picture picture = picture_of(flare.image);
   set_colour_space(picture, planned.request.settings.colour_space);
   set_pixel_aspect(picture, planned.request.pixel_aspect);
+  if (ending != ".exr" || !is_linear)
+    return write_plate(*planned.files.output, picture, nullptr, planned.options.colour, context);
   if (planned.options.layers.on()) add_layers(picture, layers, planned.options.layers);
   return write_picture(*planned.files.output, picture, context);
 }

@@ -13,6 +13,7 @@
 #include "cli/preset_choice.h"
 #include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/plate.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/source_renderer.h"
 
@@ -23,6 +24,7 @@ struct RenderOptions {
   bool json = false;
   PresetOptions preset;
   LayerChoice layers;
+  PlateColour colour;
   params::Values values;
   bool needs_light = true;  // where the values give no light: the default one, rather than a black frame
 

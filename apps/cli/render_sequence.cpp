@@ -29,6 +29,8 @@ Result<RenderOptions> options_of_frame(const RenderOptions& options, const Frame
 FrameFiles files_of(const RenderOptions& own) {
   SettingsRecord settings = settings_record("render", own.lens, own.values);
   settings.text += fmt::format("default light = {}\n", own.needs_light);
+  if (!own.colour.output_space.empty())
+    settings.text += fmt::format("spaces = {} of {}\n", own.colour.output_space, colour_config(own.colour));
   settings.text += layers_text(own.layers);
   return frame_files(std::move(settings), {}, own.outputs());
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Plates in other formats and colour spaces. The files are written and read here by their published layouts."""
+import json
 import pathlib
 import random
 import struct
@@ -74,6 +75,16 @@ class Formats(ProgramTest):
             self.run_program("apply", *LENS, "in.tiff", "-o", name, "--no-detect")
             self.assertAlmostEqual(self.linear(name).value(5, 5), 0.0281, delta=delta, msg=name)
 
+    def test_a_flare_alone_is_written_and_compared(self):
+        frame = ["render", *LENS, "--size", "48x32", "--wavelengths", "3", "--value", "100"]
+        for name in ("a.exr", "a.hdr", "a.tif"):
+            self.run_program(*frame, "-o", name)
+        report = json.loads(self.run_program("compare", "a.exr", "a.hdr", "--json").stdout)
+        self.assertGreater(report["psnr_db"], 45.0)  # 8 bits of mantissa
+        self.assertAlmostEqual(report["flux_ratio"][1], 1.0, delta=0.005)
+        self.assertEqual((self.folder / "a.tif").read_bytes()[:2], b"II")
+        self.assertIn("--layers", self.error_of(*frame, "-o", "b.tif", "--layers", "part", code=1))
+
     def test_damaged_files_are_refused(self):
         write_dpx(self.folder / "whole.dpx", plate_codes(), VIDEO)
         (self.folder / "cut.dpx").write_bytes((self.folder / "whole.dpx").read_bytes()[:9000])
@@ -137,6 +148,16 @@ class Spaces(ProgramTest):
         self.run_program("apply", *LENS, "cct.exr", "-o", "back.dpx", "--no-detect", "--input-space", "ACEScct", "--output-space", "sRGB")
         for got, wanted in zip(read_dpx(self.folder / "back.dpx")[3][4], (9000, 30000, 50000)):
             self.assertAlmostEqual(got, wanted / 64, delta=1.0)
+
+    def test_a_flare_alone_takes_a_space(self):
+        frame = ["render", *LENS, "--size", "48x32", "--wavelengths", "3", "--value", "100"]
+        self.run_program(*frame, "-o", "linear.exr")
+        self.run_program(*frame, "-o", "cct.exr", "--output-space", "ACEScct")
+        self.run_program("apply", *LENS, "cct.exr", "-o", "back.exr", "--no-detect", "--input-space", "ACEScct",
+                         "--output-space", "Linear Rec.709")
+        report = json.loads(self.run_program("compare", "linear.exr", "back.exr", "--json").stdout)
+        self.assertGreater(report["psnr_db"], 50.0)
+        self.assertIn("--output-space", self.error_of(*frame, "-o", "c.exr", "--layers", "part", "--output-space", "ACEScct", code=1))
 
     def test_errors_say_what_there_is(self):
         write_dpx(self.folder / "in.dpx", plate_codes())
