@@ -216,7 +216,7 @@ MAY_INCLUDE = {
 
 # Libraries that stay in one place: pattern of the include, folders that may name it, why.
 FENCED = [
-    (r"(vulkan|GLES?\d?|OpenGL)/|glad|shaderc", ("src/vulkan", "apps/studio"), "graphics stays in vulkan and the studio"),
+    (r"vulkan/v(k|ulkan)|(GLES?\d?|OpenGL)/|glad|shaderc", ("src/vulkan", "apps/studio"), "graphics stays in vulkan and the studio"),
     (r"GLFW/|imgui|ofx", ("apps", "plugins"), "windows and hosts belong to apps"),
     (r"(oneapi/)?tbb/", ("src/base",), "threads come from base/tasks.h, where their hand-overs are annotated"),
     (r"nlohmann/", ("src/base", "apps", "tests"), "one wrapper that keeps its exceptions in"),

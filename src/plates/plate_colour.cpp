@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -51,11 +52,22 @@ Pixels codes_of(const Picture& picture) {
   return codes;
 }
 
-Result<ColourConversion> convert(Pixels& rgb, const ColourRequest& request) {
+// Changes the primaries of linear colours.
+void change_primaries(Pixels& rgb, ColourSpace from, ColourSpace to) {
+  if (from == to) return;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
+    const Rgb changed = rgb_from_xyz(xyz_from_rgb({rgb[i], rgb[i + 1], rgb[i + 2]}, from), to);
+    for (std::size_t c = 0; c < 3; ++c) rgb[i + c] = static_cast<float>(changed[c]);
+  }
+}
+
+// own: the working space of colours that go to another space.
+Result<ColourConversion> convert(Pixels& rgb, const ColourRequest& request, std::optional<ColourSpace> own = {}) {
   const auto module = colour_module();
   if (!module) return tl::unexpected(module.error());
   auto conversion = (*module)->open(request);
   if (!conversion) return conversion;
+  if (own) change_primaries(rgb, *own, conversion->working);
   if (auto ok = (*module)->apply(*conversion, rgb.data(), rgb.size() / 3); !ok) return tl::unexpected(ok.error());
   return conversion;
 }
@@ -84,7 +96,7 @@ Result<Picture> in_space(const Picture& picture, const PlateSource* source, cons
   Pixels& rgb = coded.rgb.pixels;
   for (std::size_t i = 0; i < rgb.size() && !alpha.empty(); ++i)
     rgb[i] = alpha[i / 3] > 0.0F ? rgb[i] / alpha[i / 3] : 0.0F;
-  const auto conversion = convert(rgb, {config, space, false});
+  const auto conversion = convert(rgb, {config, space, false}, colour_space_of(picture).value_or(ColourSpace::Rec709));
   if (!conversion) return tl::unexpected(conversion.error());
   if (is_integer)
     for (float& value : rgb) value = srgb_decode(static_cast<double>(std::clamp(value, 0.0F, 1.0F)));

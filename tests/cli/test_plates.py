@@ -81,9 +81,9 @@ class Formats(ProgramTest):
             self.run_program(*frame, "-o", name)
         report = json.loads(self.run_program("compare", "a.exr", "a.hdr", "--json").stdout)
         self.assertGreater(report["psnr_db"], 45.0)  # 8 bits of mantissa
-        self.assertAlmostEqual(report["flux_ratio"][1], 1.0, delta=0.005)
+        self.assertAlmostEqual(report["flux_ratio"][1], 1.0, delta=0.03)  # which RGBE truncates
         self.assertEqual((self.folder / "a.tif").read_bytes()[:2], b"II")
-        self.assertIn("--layers", self.error_of(*frame, "-o", "b.tif", "--layers", "part", code=1))
+        self.assertIn("layers need an EXR", self.error_of(*frame, "-o", "b.tif", "--layers", "part", code=1))
 
     def test_damaged_files_are_refused(self):
         write_dpx(self.folder / "whole.dpx", plate_codes(), VIDEO)

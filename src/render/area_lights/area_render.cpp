@@ -41,6 +41,8 @@ FramePlan part_of(const FramePlan& plan, const BlurredImage& image) {
   part.tables = plan.tables;
   part.reflectances = plan.reflectances;
   part.dirt = plan.dirt;
+  part.kept_fluxes = plan.kept_fluxes;
+  part.kept_pupils = plan.kept_pupils;
   part.layers = plan.layers;
   return part;
 }
