@@ -116,12 +116,15 @@ void add_apply(CLI::App& app, Action& action) {
   add_parameters(*command, options->values,
                  {"detect", "region", "threshold", "softness", "max-lights", "min-pixels", "max-value", "light-shape",
                   "spectrum", "gain", "stops"});
+  add_others_of_group(*command, options->values, "Light detection");
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",
                   "shutter-angle", "shutter-offset"});
+  add_others_of_group(*command, options->values, "Lights");
   add_animation_option(*command, options->lights);
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"hfov", "pixel-aspect"});
+  add_others_of_group(*command, options->values, "Frame", "size");
   add_rendering_parameters(*command, options->values);
   command->footer(kApplyExamples);
   command->callback([options, sequence, &action] {

@@ -67,14 +67,6 @@ void add_parameter(CLI::App& command, params::Values& values, const Parameter& p
   option->group("");
 }
 
-// Adds the parameters of a group of the table that the command does not have yet, but for one.
-void add_others_of_group(CLI::App& command, params::Values& values, std::string_view group,
-                         std::string_view except = {}) {
-  for (const Parameter& p : params::all_parameters())
-    if (p.group == group && p.name != except && command.get_option_no_throw(fmt::format("--{}", p.name)) == nullptr)
-      add_parameter(command, values, p);
-}
-
 }  // namespace
 
 void add_parameters(CLI::App& command, params::Values& values, std::initializer_list<std::string_view> names) {
@@ -83,6 +75,12 @@ void add_parameters(CLI::App& command, params::Values& values, std::initializer_
 
 void add_parameters(CLI::App& command, params::Values& values, std::span<const std::string_view> names) {
   for (const std::string_view name : names) add_parameter(command, values, params::parameter(name));
+}
+
+void add_others_of_group(CLI::App& command, params::Values& values, std::string_view group, std::string_view except) {
+  for (const Parameter& p : params::all_parameters())
+    if (p.group == group && p.name != except && command.get_option_no_throw(fmt::format("--{}", p.name)) == nullptr)
+      add_parameter(command, values, p);
 }
 
 void add_lens_parameters(CLI::App& command, params::Values& values) {

@@ -35,6 +35,11 @@ inline constexpr std::array<std::string_view, 11> kDirt = {
 // result: its help omits them.
 void hide_parameters(CLI::App& command, std::span<const std::string_view> names);
 
+// Adds the parameters of a group of the table that the command does not have yet, but for one: those that are new in
+// the table appear without a change here.
+void add_others_of_group(CLI::App& command, params::Values& values, std::string_view group,
+                         std::string_view except = {});
+
 // Adds the options of rendering: the method and its settings.
 void add_rendering_parameters(CLI::App& command, params::Values& values);
 

@@ -98,9 +98,11 @@ void add_render(CLI::App& app, Action& action) {
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",
                   "shutter-angle", "shutter-offset"});
+  add_others_of_group(*command, options->values, "Lights");
   add_animation_option(*command, options->lights);
   add_lens_parameters(*command, options->values);
   add_parameters(*command, options->values, {"size", "hfov", "pixel-aspect"});
+  add_others_of_group(*command, options->values, "Frame");
   add_rendering_parameters(*command, options->values);
   command->footer(kRenderExamples);
   command->callback([options, sequence, &action] {

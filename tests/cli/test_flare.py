@@ -15,6 +15,12 @@ class Render(ProgramTest):
         self.run_program("render", lens, "-f", "16", "-o", name, *QUICK, *arguments)
         return exr.Picture(self.folder / name)
 
+    def test_a_near_disc_far_outside_a_tiny_frame(self):
+        """Its ghosts in focus are divided as finely as any: a division by zero ended the program."""
+        self.run_program("render", "planar-50", "-o", "a.exr", "--size", "48x32", "--hfov", "39.5978",
+                         "--light-at=1.242094,-0.870385:10680:D65:1.326989:8611.819")
+        self.assertGreater(exr.Picture(self.folder / "a.exr").total(), 0)
+
     def test_outputs_and_statistics(self):
         picture = self.render("a.exr", "--preview", "a.png", "--stats", "a.json")
         self.assertEqual((picture.width, picture.height), (96, 64))

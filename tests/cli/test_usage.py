@@ -70,7 +70,7 @@ class Usage(ProgramTest):
     def test_wrong_options(self):
         render = ["render", "heliar", "-o", "a.exr"]
         for wrong in (
-                [], ["lens"], ["frobnicate"], ["render"], ["render", "heliar"], ["render", "heliar", "-o", "a.jpg"],
+                [], ["lens"], ["frobnicate"], ["render"], ["render", "heliar"], ["render", "heliar", "-o", "a.gif"],
                 [*render, "--bogus"], [*render, "--size", "0x10"], [*render, "--size", "10"], [*render, "--size", "-4x4"],
                 [*render, "--size", "20000x20000"], [*render, "--size", "99999999999x1"],
                 [*render, "-f", "nan"], [*render, "-f", "inf"], [*render, "-f", "0"], [*render, "-f", "8", "-f", "11"],

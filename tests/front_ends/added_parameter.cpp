@@ -9,6 +9,7 @@ namespace {
 const Parameter kAdded[] = {
     {.name = "flare-wobble", .group = "Rendering", .kind = Kind::Real, .unit = "mm", .minimum = -3, .maximum = 7,
      .fallback = "1.5", .help = "a parameter that a test added"},
+    {.name = "light-wobble", .group = "Lights", .kind = Kind::Real, .fallback = "0", .help = "another one"},
 };
 // clang-format on
 

@@ -23,6 +23,7 @@ class AddedParameterTest(unittest.TestCase):
         for command in ("render", "apply"):
             shown = self.run_program(program, command, "--help")
             self.assertIn("--flare-wobble", shown, command)
+            self.assertIn("--light-wobble", shown, command)
             self.assertIn("a parameter that a test added (default: 1.5)", " ".join(shown.split()), command)
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "f.exr")

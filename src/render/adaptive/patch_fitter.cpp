@@ -7,7 +7,11 @@
 #include <limits>
 #include <utility>
 
+#include "render/adaptive/budget/cell_choice.h"
+#include "render/adaptive/budget/fit_budget.h"
 #include "render/adaptive/budget/patterned_boxes.h"
+#include "render/adaptive/budget/preview.h"
+#include "render/adaptive/cells/box_cells.h"
 #include "render/adaptive/cells/ray_map_names.h"
 #include "render/ray_maps/illuminated_region.h"
 #include "render/ray_maps/lobatto_cells.h"
@@ -16,6 +20,7 @@ namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr std::array kNodes{kMinNodes, 9, 17};
+static_assert(kMaxDepth + kNextToFailure + kMaxMeshDepth <= MeshPosition::kMaxDepth);
 constexpr double kNoFit = std::numeric_limits<double>::infinity();
 
 // The estimated error of a patch over its tolerance.

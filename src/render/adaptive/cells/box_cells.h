@@ -22,7 +22,9 @@ namespace contrejour::inline internal::adaptive {
 // The position of a mesh in its box, of which there may be many: its first vertex and the length of its cells, in units
 // of the finest subdivision (the box's side is kWhole of them).
 struct MeshPosition {
-  static constexpr int kMaxDepth = 11;  // the most times that a box may be quartered
+  // The most times that a box may be quartered: while its patches are fitted, then while their meshes are chosen
+  // (patch_fitter.cpp checks the sum).
+  static constexpr int kMaxDepth = 12;
   static constexpr int kWhole = Mesh::kCells << kMaxDepth;
   int box = 0, mirrored_box = 0;  // the same index if the box is its own mirror image
   int x = 0, y = 0, step = 1 << kMaxDepth;
