@@ -46,7 +46,7 @@ struct PolynomialFitSettings {
   params::Values values;
 };
 
-// What a table says of one ghost.
+// A row of the table: one ghost.
 struct PolynomialSummary {
   std::string ghost;
   int order = 0;

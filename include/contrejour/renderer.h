@@ -24,7 +24,7 @@
 
 namespace contrejour {
 
-// Where frames are computed (docs/gpu.md): on the CPU; by Vulkan on a GPU; or there if possible, and else on the CPU.
+// Frames are computed (docs/gpu.md) on the CPU; by Vulkan on a GPU; or there if possible, and else on the CPU.
 enum class Device { Cpu, Vulkan, Auto };
 
 // Where a frame goes.

@@ -33,7 +33,7 @@ void chebyshev_values(double x, std::array<double, kCount>& out) {
   for (std::size_t k = 2; k < kCount; ++k) out[k] = 2.0 * x * out[k - 1] - out[k - 2];
 }
 
-// Where a ray lies in a zone: all in [-1, 1] within it.
+// A ray's coordinates in a zone: all in [-1, 1] within it.
 struct ZonePoint {
   double h = 0.0;  // the field over the zone's highest
   Vec2 p;  // pupil point, |p| <= 1

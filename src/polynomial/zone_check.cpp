@@ -13,7 +13,7 @@ constexpr std::size_t kFirstIndex = 100'003;  // in the sequence of points, beyo
 constexpr std::array kTestedWavelengths{-0.86, -0.11, 0.57};  // coordinates, none of which is a node of the fit
 constexpr double kLandingNear = 1.1;  // of its size
 constexpr std::size_t kFewRays = 16;
-// Of the radius: a ray that passes so far outside an edge must not be let through.
+// A ray that passes an edge outside by this fraction of its radius must not be let through.
 constexpr double kBlockedBy = 0.03;
 
 std::vector<double> sorted(std::vector<double> values) {

@@ -38,7 +38,8 @@ class GhostRays {
   GhostRays(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost, double entrance_z_mm)
       : lens_(lens), steps_(steps), ghost_(ghost), entrance_z_mm_(entrance_z_mm) {}
 
-  // Where light enters at a field, with a margin around it; without light low_x_mm >= high_x_mm.
+  // The area of the entrance plane that light uses at a field, with a margin around it; without light low_x_mm >=
+  // high_x_mm.
   [[nodiscard]] PolynomialBounds bounds(double field) const;
   // starts: by rising field.
   [[nodiscard]] RayTable trace(std::span<const RayStart> starts, double lambda_nm) const;

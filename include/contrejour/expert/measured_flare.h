@@ -53,8 +53,8 @@ struct MeasuredGhost {
   AngleCurve width_in, width_out;
   AngleCurve slope_in{Parity::Even, {1.0}}, slope_out{Parity::Even, {1.0}};
   std::array<AngleCurve, 3> border, inside;  // levels of the channels
-  // What is added to the inside's level at each place (ghost_profile.h): kProfileTerms curves of each channel, or none.
-  // Those of cos(phi) are odd, the others even. Their sum with the inside's level is not below 0.
+  // The profile is added to the inside's level at each place (ghost_profile.h): kProfileTerms curves a channel, or
+  // none. Those of cos(phi) are odd, the others even. Their sum with the inside's level is not below 0.
   std::array<std::vector<AngleCurve>, 3> profile;
 
   // It is there for |s| from first to last, and fades within `transition` of either end (unless that end is the axis or

@@ -67,7 +67,7 @@ Levels levels_of(const MeasuredFlare& flare, const TangentFrame& frame, const Am
   return levels;
 }
 
-// What a level adds to a pixel, for a level of 1.
+// The contribution of a level of 1 to a pixel.
 struct Share {
   std::size_t level = 0;  // in Levels
   double value = 0;

@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kMostCoefficients = 3;
 constexpr std::size_t kUsualCoefficients = 2;  // where no station is held out
 constexpr int kShapeIterations = 10;
-// One pixel of so many is fitted: for levels, and for outlines, which are costly where ghosts with profiles overlap.
+// One pixel of this number is fitted: for levels, and for outlines, which are costly where ghosts with profiles
+// overlap.
 constexpr int kLevelSamples = 3, kShapeSamples = 6;
 
 // Wide ghosts of which no edge is found add up to light that changes slowly over the picture and moves with the light,

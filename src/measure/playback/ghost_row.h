@@ -17,7 +17,7 @@ struct GhostPacket {
   std::array<std::array<float, 4>, 2> x{}, y{};  // left and right cubic: coefficients of 1, t, t^2, t^3
   float fade_in = 0, fade_out = 0, slope_in = 1, slope_out = 1;
   std::array<float, 3> border{}, inside{};  // levels of a pixel
-  // What is added to the inside's level (ghost_profile.h), by terms, and the places' scales: 1 / half axis.
+  // The profile is added to the inside's level (ghost_profile.h): its terms, and the places' scales: 1 / half axis.
   bool has_profile = false;
   std::array<std::array<float, kProfileTerms>, 3> profile{};
   float per_left = 0, per_right = 0, per_height = 0;
