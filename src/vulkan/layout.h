@@ -40,7 +40,7 @@ inline constexpr std::uint64_t kRayBytes = 16, kCrossingBytes = 8 * kMaxStopCros
 inline constexpr std::uint64_t kLargeBytes = 64, kCornerBytes = 8, kSumBytes = 24, kPixelBytes = 12;
 inline constexpr float kFailedHeight = 3.0e38F;  // FAILED
 
-// Where a ray of the sensor (mm) lies among the pixels: origin + scale * sensor.
+// Maps a point of the sensor (mm) to pixels: origin + scale * sensor.
 struct PixelMap {
   Vec2 origin, scale;
 };

@@ -10,7 +10,7 @@
 
 namespace contrejour::inline internal::bundle {
 
-// What a device cannot do of a frame, in words for a report; empty: it can draw the frame.
+// Names what keeps a device from drawing a frame, in words for a report; empty: it can draw the frame.
 [[nodiscard]] std::string device_lacks(const GridSource& source, const FramePlan& plan);
 
 // Errors: those of the device; Cancelled.

@@ -37,7 +37,7 @@ class DeviceFrame {
   std::vector<std::vector<DeviceGrid>> by_layer_;
 };
 
-// What devices cannot do about the stop yet, in words for a report: "ringing is"; empty: nothing.
+// Names what devices cannot do at the stop yet, in words for a report: "ringing is"; empty: nothing.
 [[nodiscard]] std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens);
 
 }  // namespace contrejour::inline internal

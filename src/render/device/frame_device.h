@@ -35,7 +35,7 @@ struct DeviceGrid {
   Vec2 shift_mm{};  // of the ghost, on the sensor
 };
 
-// What is drawn from the grids: the cells as `bundle` does, or primitives as `tiled` does.
+// Grids are drawn as cells, as `bundle` does, or as primitives, as `tiled` does.
 using GridStyle = std::variant<BundleOptions, TiledOptions>;
 
 struct GridJob {

@@ -38,7 +38,7 @@ struct FoundGrid {
   std::uint64_t rays = 0, surface_hits = 0;
 };
 
-// What a search needs of the frame.
+// The input of a search for pupils.
 struct SearchInput {
   const LensState& lens;
   const TiledOptions& options;

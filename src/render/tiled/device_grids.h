@@ -14,7 +14,7 @@ namespace contrejour::inline internal::tiled {
 // Rays a side for a ghost's pupil that lands on a part of the sensor.
 [[nodiscard]] int side_of_grid(const GridOptions& grid, const LensState& lens, const Rectangle& sensor_mm);
 
-// What a device cannot do of a frame, in words for a report; empty: it can draw the frame.
+// Names what keeps a device from drawing a frame, in words for a report; empty: it can draw the frame.
 [[nodiscard]] std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens);
 
 // Errors: those of the device; Cancelled.

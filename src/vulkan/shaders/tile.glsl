@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shaders of tiles share: which listed polygons reach a tile, and the sums of a pixel, in fixed point, so that
+// The shaders of tiles share this: which listed polygons reach a tile, and the sums of a pixel, in fixed point, so that
 // their order does not matter. A listed polygon's words 12 to 15 are its first and last column and row.
 #include "sums.glsl"
 #define TILE_SIDE 8

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cells share at their vertices: the irradiance of the cells around a ray, and whether the ray is blocked.
+// Computes for each ray the irradiance of the cells around it, which share it, and whether the ray is blocked.
 // CellRaster::find_irradiance() and PrimitiveBuilder::find_irradiance(), which are the same: the flux of the cells
 // around a vertex over their area, hullin2011 4.1 and 4.3. Cells beyond the border count as those inside it.
 #version 460
