@@ -29,7 +29,9 @@ enum class Device { Cpu, Vulkan, Auto };
 
 // Where a frame goes.
 struct FrameTarget {
-  ImageView pixels;  // as large as settings.frame, which may be a region of a larger picture
+  // As large as settings.frame, which may be a region of a larger picture. A view by default, of no size: the frame is
+  // rendered and not written, to measure its time without that of copying it from a device.
+  ImageView pixels = {};
   // Called once with a draft in the pixels, before the frame itself is rendered: the same flare by `adaptive` at an
   // RMS error of 0.02. Empty: no draft.
   std::function<void()> draft_is_ready = {};

@@ -18,15 +18,16 @@ Residence residence_of(std::size_t slot) {
     case Slot::Doubles:
     case Slot::Integers:
     case Slot::Tables:
-    case Slot::Bounds: return Residence::Upload;
-    case Slot::Counters:
-    case Slot::Picture: return Residence::Download;
+    case Slot::Bounds:
+    case Slot::Items:
+    case Slot::Starts:
+    case Slot::Groups: return Residence::Upload;
     default: return Residence::Device;
   }
 }
 
-constexpr std::uint64_t kGroup = 64;  // invocations of every shader's workgroup
 constexpr double kNanoseconds = 1e9;  // a second
+constexpr std::uint32_t kMostStages = 32;
 
 }  // namespace
 
@@ -46,6 +47,10 @@ DeviceContext::DeviceContext(const vk::raii::PhysicalDevice& physical, const Dev
   command_pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
   commands_ = vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1});
   fence_ = device_.createFence({});
+  if (physical.getQueueFamilyProperties()[family].timestampValidBits > 0) {
+    clock_ = device_.createQueryPool({{}, vk::QueryType::eTimestamp, kMostStages + 1});
+    tick_ns_ = static_cast<double>(properties_.limits.timestampPeriod);
+  }
   for (std::size_t k = 0; k < kSlots; ++k) buffers_.emplace_back(residence_of(k));
 }
 
@@ -61,7 +66,7 @@ void DeviceContext::make_layouts() {
   for (std::uint32_t k = 0; k < kSlots; ++k)
     bindings.emplace_back(k, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
   set_layout_ = device_.createDescriptorSetLayout(vk::DescriptorSetLayoutCreateInfo({}, bindings));
-  const vk::PushConstantRange pushed(vk::ShaderStageFlagBits::eCompute, 0, sizeof(Parameters));
+  const vk::PushConstantRange pushed(vk::ShaderStageFlagBits::eCompute, 0, kPushedBytes);
   pipeline_layout_ = device_.createPipelineLayout(vk::PipelineLayoutCreateInfo({}, *set_layout_, pushed));
   const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, kSlots);
   descriptor_pool_ = device_.createDescriptorPool(
@@ -87,6 +92,8 @@ void DeviceContext::need(Slot slot, std::uint64_t bytes) {
   if (at(slot).need(device_, memory_, bytes)) described_ = false;
 }
 
+void DeviceContext::need_fetched(std::uint64_t bytes) { fetched_.need(device_, memory_, bytes); }
+
 void DeviceContext::describe_buffers() {
   std::vector<vk::DescriptorBufferInfo> infos;
   for (std::size_t k = 0; k < kSlots; ++k) {
@@ -106,15 +113,28 @@ void DeviceContext::begin() {
   commands.reset();
   commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0, *sets_.front(), {});
+  stages_.clear();
+  if (*clock_ == vk::QueryPool{}) return;
+  commands.resetQueryPool(*clock_, 0, kMostStages + 1);
+  commands.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, *clock_, 0);
 }
 
-void DeviceContext::dispatch(Shader shader, const Parameters& parameters, GroupCount groups) {
-  if (groups.x == 0 || groups.y == 0) return;
-  const vk::raii::CommandBuffer& commands = commands_.front();
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(shader)]);
-  commands.pushConstants<Parameters>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, parameters);
-  commands.dispatch(groups.x, groups.y, 1);
-  invocations_ += kGroup * groups.x * groups.y;
+void DeviceContext::end_stage(std::string name) {
+  if (*clock_ == vk::QueryPool{} || stages_.size() == kMostStages) return;
+  stages_.push_back(std::move(name));
+  commands_.front().writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *clock_,
+                                   static_cast<std::uint32_t>(stages_.size()));
+}
+
+void DeviceContext::read_clock() {
+  stages_ms_.clear();
+  if (stages_.empty()) return;
+  const auto count = static_cast<std::uint32_t>(stages_.size() + 1);
+  const auto [result, ticks] = clock_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t),
+                                                                sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
+  if (result != vk::Result::eSuccess) return;
+  for (std::size_t k = 0; k < stages_.size(); ++k)
+    stages_ms_.emplace_back(stages_[k], static_cast<double>(ticks[k + 1] - ticks[k]) * tick_ns_ * 1e-6);
 }
 
 void DeviceContext::clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes) {
@@ -124,11 +144,11 @@ void DeviceContext::clear(Slot slot, std::uint64_t first_byte, std::uint64_t byt
 void DeviceContext::barrier() {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
-  const vk::MemoryBarrier all(
-      Access::eShaderWrite | Access::eTransferWrite,
-      Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite | Access::eHostRead);
+  const vk::MemoryBarrier all(Access::eShaderWrite | Access::eTransferWrite,
+                              Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead |
+                                  Access::eTransferWrite | Access::eIndirectCommandRead | Access::eHostRead);
   const auto work = Stage::eComputeShader | Stage::eTransfer;
-  commands_.front().pipelineBarrier(work, work | Stage::eHost, {}, all, {}, {});
+  commands_.front().pipelineBarrier(work, work | Stage::eDrawIndirect | Stage::eHost, {}, all, {}, {});
 }
 
 void DeviceContext::finish() {
@@ -141,19 +161,15 @@ void DeviceContext::finish() {
   const auto wait_ns = static_cast<std::uint64_t>(longest_wait_s_ * kNanoseconds);
   if (device_.waitForFences(*fence_, VK_TRUE, wait_ns) == vk::Result::eTimeout)
     throw Hang(fmt::format("the device gave no answer for {} s", longest_wait_s_));
+  read_clock();
 }
 
-std::vector<float> DeviceContext::finish_and_read(Slot slot, std::uint64_t floats) {
-  Buffer copy(Residence::Download);
-  copy.need(device_, memory_, floats * sizeof(float));
-  commands_.front().copyBuffer(at(slot).handle(), copy.handle(), vk::BufferCopy(0, 0, floats * sizeof(float)));
-  finish();
-  const auto* const from = copy.read<float>();
-  return {from, from + floats};
+void DeviceContext::fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte) {
+  commands_.front().copyBuffer(at(slot).handle(), fetched_.handle(), vk::BufferCopy(0, to_byte, bytes));
 }
 
 std::uint64_t DeviceContext::memory_bytes() const {
-  std::uint64_t sum = 0;
+  std::uint64_t sum = fetched_.bytes();
   for (const Buffer& buffer : buffers_) sum += buffer.bytes();
   return sum;
 }

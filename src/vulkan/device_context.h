@@ -5,9 +5,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
@@ -40,8 +43,22 @@ enum class Slot : std::uint8_t {
   Blocks,
   Doubles,
   Vertices,
+  Items,
+  Groups,
+  Boxes,
+  Found,
+  States,
+  Offsets,
+  CutCells,
+  TileCounts,
+  TileFirst,
+  TileLists,
+  Indirect,
+  Starts,
+  Wide,
 };
-inline constexpr std::size_t kSlots = 14;
+inline constexpr std::size_t kSlots = 27;
+inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {
   std::uint32_t x = 1, y = 1;
@@ -58,6 +75,7 @@ class DeviceContext {
   [[nodiscard]] Buffer& at(Slot slot) { return buffers_[static_cast<std::size_t>(slot)]; }
   // Makes a buffer large enough, and takes part in no submission meanwhile.
   void need(Slot slot, std::uint64_t bytes);
+  void need_fetched(std::uint64_t bytes);  // what fetch() may copy in one submission
   template <class T>
   void upload(Slot slot, const std::vector<T>& values) {
     need(slot, values.size() * sizeof(T));
@@ -66,21 +84,50 @@ class DeviceContext {
 
   // A submission: begin, any number of the others, finish.
   void begin();
-  void dispatch(Shader shader, const Parameters& parameters, GroupCount groups);
+  template <class P>
+  void dispatch(Shader shader, const P& parameters, GroupCount groups) {
+    if (groups.x == 0 || groups.y == 0) return;
+    push(shader, parameters);
+    commands_.front().dispatch(groups.x, groups.y, 1);
+    invocations_ += kGroup * groups.x * groups.y;
+  }
+  // The group counts are the device's: three words of Slot::Indirect, from this byte on.
+  template <class P>
+  void dispatch_indirect(Shader shader, const P& parameters, std::uint64_t byte) {
+    push(shader, parameters);
+    commands_.front().dispatchIndirect(at(Slot::Indirect).handle(), byte);
+  }
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
   void barrier();  // what follows sees what came before
   void finish();   // submits, and waits for the end
-  // The same, with a copy of a buffer's first floats, which it returns.
-  [[nodiscard]] std::vector<float> finish_and_read(Slot slot, std::uint64_t floats);
+  // What the host shall read: the first bytes of a buffer, at this byte of what read() returns after finish().
+  void fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte = 0);
+  template <class T>
+  [[nodiscard]] const T* read(std::uint64_t byte = 0) const {
+    return reinterpret_cast<const T*>(fetched_.read<std::byte>() + byte);
+  }
+  // Ends a stage: stages_ms() says how long each took, by the device's clock. Empty where it has none.
+  void end_stage(std::string name);
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages_ms() const { return stages_ms_; }
 
   [[nodiscard]] std::uint64_t submissions() const { return submissions_; }
   [[nodiscard]] std::uint64_t invocations() const { return invocations_; }
   [[nodiscard]] std::uint64_t memory_bytes() const;
 
  private:
+  static constexpr std::uint64_t kGroup = 64;  // invocations of most shaders' workgroups
+
   void make_layouts();
   void make_pipelines();
   void describe_buffers();
+  void read_clock();
+  template <class P>
+  void push(Shader shader, const P& parameters) {
+    static_assert(sizeof(P) <= kPushedBytes);
+    const vk::raii::CommandBuffer& commands = commands_.front();
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(shader)]);
+    commands.pushConstants<P>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, parameters);
+  }
 
   DeviceInfo info_;
   double longest_wait_s_;
@@ -98,7 +145,12 @@ class DeviceContext {
   vk::raii::CommandPool command_pool_ = nullptr;
   std::vector<vk::raii::CommandBuffer> commands_;  // one
   vk::raii::Fence fence_ = nullptr;
+  vk::raii::QueryPool clock_ = nullptr;  // null: the queue has none
+  double tick_ns_ = 0.0;
+  std::vector<std::string> stages_;  // of the submission that is being made
+  std::vector<std::pair<std::string, double>> stages_ms_;
   std::vector<Buffer> buffers_;  // by Slot
+  Buffer fetched_{Residence::Download};
   bool described_ = false;
   std::uint64_t submissions_ = 0, invocations_ = 0;
 };

@@ -14,12 +14,6 @@ constexpr int kTile = 8;
 // grazing rays, which may be brighter than estimated, and for single values of tiny cells.
 constexpr double kFixedPoint = 0x1p50;
 
-// The largest reflectance of a step at angles of incidence up to 75 degrees.
-double largest_reflectance(const float* table) {
-  constexpr int kFirst = ReflectanceTables::kIntervals / 4;
-  return *std::max_element(table + kFirst, table + ReflectanceTables::kIntervals + 1);
-}
-
 // An estimate of the light that all grids bring to a pixel at most.
 double most_light(std::span<const DeviceGrid> grids) {
   double sum = 0.0;
@@ -59,6 +53,11 @@ GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info) {
   const std::uint64_t rows = (groups + info.groups_an_axis - 1) / info.groups_an_axis;
   if (rows == 0) return {0, 0};
   return {static_cast<std::uint32_t>((groups + rows - 1) / rows), static_cast<std::uint32_t>(rows)};
+}
+
+double largest_reflectance(const float* table) {
+  constexpr int kFirst = ReflectanceTables::kIntervals / 4;
+  return *std::max_element(table + kFirst, table + ReflectanceTables::kIntervals + 1);
 }
 
 std::uint64_t ray_count(const DeviceGrid& grid) {
@@ -225,9 +224,12 @@ void GridFrame::resolve(const Band& band, Image& image) {
   p.height = band.frame.height;
   p.gain[0] = static_cast<float>(1.0 / fixed_point_);
   device_.dispatch(Shader::Resolve, p, groups_of(values, info_));
+  device_.barrier();
+  device_.fetch(Slot::Picture, sizeof(float) * values);
+  device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters, sizeof(float) * values);
   device_.finish();
-  const float* const from = device_.at(Slot::Picture).read<float>();
-  std::copy_n(from, values, image.pixels.data() + image.index(0, band.first_row));
+  std::copy_n(device_.read<float>(), values, image.pixels.data() + image.index(0, band.first_row));
+  std::copy_n(device_.read<std::uint32_t>(sizeof(float) * values), std::size_t{kCounters}, counters_.begin());
 }
 
 bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context) {
@@ -235,6 +237,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   const auto pixels = static_cast<std::uint64_t>(band.frame.width) * static_cast<std::uint64_t>(band.frame.height);
   device_.need(Slot::Sums, kSumBytes * pixels);
   device_.need(Slot::Picture, kPixelBytes * pixels);
+  device_.need_fetched(kPixelBytes * pixels + sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Large, kLargeBytes * limits_.large_polygons);
   device_.need(Slot::LargeCorners, kCornerBytes * limits_.large_corners);
@@ -264,7 +267,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
     submitted = 0;
   }
   resolve(band, image);
-  return device_.at(Slot::Counters).read<std::uint32_t>()[kOverflows] == 0;
+  return counters_[kOverflows] == 0;
 }
 
 DeviceWork GridFrame::draw(Image& image, const Context& context) {
@@ -276,7 +279,7 @@ DeviceWork GridFrame::draw(Image& image, const Context& context) {
     band.frame.origin_y += row;
     band.frame.height = std::min(rows, frame.height - row);
     if (draw_band(band, batch_rays, image, context)) {
-      work_.primitives += device_.at(Slot::Counters).read<std::uint32_t>()[kPrimitiveCount];
+      work_.primitives += counters_[kPrimitiveCount];
       row += band.frame.height;
       continue;
     }

@@ -3,6 +3,7 @@
 // not. Failures are exceptions, as DeviceContext's. Thread-safety: one thread at a time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -54,10 +55,13 @@ class GridFrame {
   double fixed_point_ = 1.0;  // units of the sums for a pixel value of 1
   std::vector<Parameters> grids_;  // of the present band, by grid
   std::vector<std::uint32_t> blocks_at_;  // of `tiled`, by grid: where its levels of merging begin
+  std::array<std::uint32_t, kCounters> counters_{};  // of the last band
   DeviceWork work_;
 };
 
 [[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
 [[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
+// Of a table, at angles of incidence up to 75 degrees.
+[[nodiscard]] double largest_reflectance(const float* table);
 
 }  // namespace contrejour::inline internal::vulkan

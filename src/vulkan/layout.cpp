@@ -8,30 +8,23 @@
 namespace contrejour::inline internal::vulkan {
 namespace {
 
-constexpr std::size_t kStartReals = 18, kStepReals = 20, kStepIntegers = 12;
+constexpr std::size_t kGridReals = 14, kPathReals = 4, kStepReals = 20, kStepIntegers = 12;
 enum StepFlags : std::int32_t { kFromDenser = 1, kBlocksWithin = 2, kGeneral = 4 };
 
-std::array<double, kStartReals> start_numbers(const DeviceGrid& grid, const PixelMap& map) {
-  const PacketPath& path = grid.path;
-  const PacketStart& start = path.start();
-  return {start.origin_mm.x,
-          start.origin_mm.y,
-          start.direction.x,
-          start.direction.y,
-          start.direction.z,
-          start.per_distance_mm,
-          start.flux,
-          start.diverges ? 1.0 : 0.0,
-          grid.step_mm.x,
-          grid.step_mm.y,
-          path.sensor_gap_mm(),
-          path.sensor_offset_mm().x,
-          path.sensor_offset_mm().y,
-          path.inverse_stop_radius_per_mm(),
-          map.origin.x,
-          map.origin.y,
-          map.scale.x,
-          map.scale.y};
+// Numbers of start.glsl.
+std::array<double, kGridReals> grid_numbers(const PacketStart& start, Vec2 step_mm, const PixelMap& map) {
+  return {start.origin_mm.x, start.origin_mm.y,
+          start.direction.x, start.direction.y,
+          start.direction.z, start.per_distance_mm,
+          start.flux,        start.diverges ? 1.0 : 0.0,
+          step_mm.x,         step_mm.y,
+          map.origin.x,      map.origin.y,
+          map.scale.x,       map.scale.y};
+}
+
+std::array<double, kPathReals> path_numbers(const PacketPath& path) {
+  return {path.sensor_gap_mm(), path.sensor_offset_mm().x, path.sensor_offset_mm().y,
+          path.inverse_stop_radius_per_mm()};
 }
 
 std::array<double, kStepReals> step_numbers(const PacketStep& s) {
@@ -81,26 +74,44 @@ int PathData::table_of(const float* values) {
   return at->second;
 }
 
+void PathData::append(const std::vector<double>& numbers, PacketPrecision precision) {
+  if (precision == PacketPrecision::Double) {
+    doubles_.insert(doubles_.end(), numbers.begin(), numbers.end());
+  } else {
+    std::ranges::transform(numbers, std::back_inserter(floats_), [](double v) { return static_cast<float>(v); });
+  }
+}
+
+std::size_t PathData::size(PacketPrecision precision) const {
+  return precision == PacketPrecision::Double ? doubles_.size() : floats_.size();
+}
+
 void PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters& to) {
-  to.integers_at = static_cast<std::uint32_t>(integers_.size());
+  const auto numbers = grid_numbers(grid.path.start(), grid.step_mm, map);
+  append({numbers.begin(), numbers.end()}, grid.precision);
+  const PathPlace place = add(grid.path, grid.precision);
+  to.reals_at = place.reals_at - static_cast<std::uint32_t>(kGridReals);
+  to.integers_at = place.integers_at;
   to.step_count = static_cast<std::uint32_t>(grid.path.steps().size());
   to.crossing_count = static_cast<std::uint32_t>(grid.path.stop_crossings());
+}
+
+PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) {
+  const std::size_t first = size(precision);
   std::vector<double> numbers;
-  const auto append = [&](const auto& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
-  append(start_numbers(grid, map));
-  for (const PacketStep& step : grid.path.steps()) append(step_numbers(step));
-  const bool in_double = grid.precision == PacketPrecision::Double;
-  const std::size_t first = in_double ? doubles_.size() : floats_.size();
-  to.reals_at = static_cast<std::uint32_t>(first);
-  const bool general = grid.path.geometry() == PathGeometry::General;
-  for (const PacketStep& step : grid.path.steps()) {
+  const auto extend = [&](const auto& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
+  extend(path_numbers(path));
+  for (const PacketStep& step : path.steps()) extend(step_numbers(step));
+  const PathPlace place{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(integers_.size())};
+  const bool general = path.geometry() == PathGeometry::General;
+  for (const PacketStep& step : path.steps()) {
     std::array<std::int32_t, kStepIntegers> out{};
     const auto flag = [](bool on, std::int32_t bit) { return on ? bit : 0; };
     out[0] = static_cast<std::int32_t>(step.event);
     out[1] = step.crossing;
     out[2] = flag(step.from_denser, kFromDenser) | flag(step.blocks_within, kBlocksWithin) | flag(general, kGeneral);
-    if (step.event != PathEvent::Stop) out[3] = table_of(grid.path.tables() + step.reflectance);
-    out[4] = step.transmittance < 0 ? -1 : table_of(grid.path.tables() + step.transmittance);
+    if (step.event != PathEvent::Stop) out[3] = table_of(path.tables() + step.reflectance);
+    out[4] = step.transmittance < 0 ? -1 : table_of(path.tables() + step.transmittance);
     out[5] = -1;
     if (step.shape != nullptr) {
       const ShapeConstants& shape = *step.shape;
@@ -109,15 +120,19 @@ void PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters& to) 
       out[7] = shape.even_terms;
       out[8] = shape.odd_terms;
       out[9] = shape.rotated ? 1 : 0;
-      append(shape_numbers(shape));
+      extend(shape_numbers(shape));
     }
     integers_.insert(integers_.end(), out.begin(), out.end());
   }
-  if (in_double) {
-    doubles_.insert(doubles_.end(), numbers.begin(), numbers.end());
-  } else {
-    std::ranges::transform(numbers, std::back_inserter(floats_), [](double v) { return static_cast<float>(v); });
-  }
+  append(numbers, precision);
+  return place;
+}
+
+std::vector<float> start_numbers(const PacketStart& start, Vec2 meridian, const PixelMap& map) {
+  const auto numbers = grid_numbers(start, meridian, map);
+  std::vector<float> out;
+  for (const double number : numbers) out.push_back(static_cast<float>(number));
+  return out;
 }
 
 std::vector<float> bound_numbers(const IrisShape& iris) {

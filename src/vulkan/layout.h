@@ -46,10 +46,16 @@ struct PixelMap {
 };
 [[nodiscard]] PixelMap pixel_map(const Frame& frame, Vec2 shift_mm);
 
-// The numbers of many grids, as they are uploaded.
+// Where the numbers of a path begin.
+struct PathPlace {
+  std::uint32_t reals_at = 0, integers_at = 0;
+};
+
+// The numbers of many paths, as they are uploaded.
 class PathData {
  public:
-  // Appends a grid, and sets the members of a dispatch that refer to it.
+  [[nodiscard]] PathPlace add(const PacketPath& path, PacketPrecision precision);
+  // Appends a grid's start and path, and sets the members of a dispatch that refer to them.
   void add(const DeviceGrid& grid, const PixelMap& map, Parameters& to);
 
   [[nodiscard]] const std::vector<float>& floats() const { return floats_; }
@@ -59,6 +65,8 @@ class PathData {
 
  private:
   [[nodiscard]] int table_of(const float* values);
+  void append(const std::vector<double>& numbers, PacketPrecision precision);
+  [[nodiscard]] std::size_t size(PacketPrecision precision) const;
 
   std::vector<float> floats_;
   std::vector<double> doubles_;
@@ -66,6 +74,9 @@ class PathData {
   std::vector<float> tables_;
   std::map<const float*, int> table_at_;
 };
+
+// A light's numbers, as shaders/start.glsl; the meridian's direction in place of the step.
+[[nodiscard]] std::vector<float> start_numbers(const PacketStart& start, Vec2 meridian, const PixelMap& map);
 
 // The bounds of an iris that is no picture, eight numbers each.
 [[nodiscard]] std::vector<float> bound_numbers(const IrisShape& iris);

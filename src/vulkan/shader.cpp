@@ -4,6 +4,18 @@
 namespace contrejour::inline internal::vulkan {
 namespace {
 
+#include "vulkan/adaptive_bin.inc"
+#include "vulkan/adaptive_bin_wide.inc"
+#include "vulkan/adaptive_budget.inc"
+#include "vulkan/adaptive_cells.inc"
+#include "vulkan/adaptive_cut.inc"
+#include "vulkan/adaptive_measure.inc"
+#include "vulkan/adaptive_raster.inc"
+#include "vulkan/adaptive_search.inc"
+#include "vulkan/adaptive_sizes.inc"
+#include "vulkan/adaptive_tiles.inc"
+#include "vulkan/adaptive_trace.inc"
+#include "vulkan/adaptive_vertices.inc"
 #include "vulkan/blocks.inc"
 #include "vulkan/cells.inc"
 #include "vulkan/large_cells.inc"
@@ -29,6 +41,18 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::Primitives: return kPrimitivesCode;
     case Shader::LargePrimitives: return kLargePrimitivesCode;
     case Shader::Vertices: return kVerticesCode;
+    case Shader::AdaptiveSearch: return kAdaptiveSearchCode;
+    case Shader::AdaptiveMeasure: return kAdaptiveMeasureCode;
+    case Shader::AdaptiveBudget: return kAdaptiveBudgetCode;
+    case Shader::AdaptiveTrace: return kAdaptiveTraceCode;
+    case Shader::AdaptiveVertices: return kAdaptiveVerticesCode;
+    case Shader::AdaptiveCells: return kAdaptiveCellsCode;
+    case Shader::AdaptiveCut: return kAdaptiveCutCode;
+    case Shader::AdaptiveSizes: return kAdaptiveSizesCode;
+    case Shader::AdaptiveBin: return kAdaptiveBinCode;
+    case Shader::AdaptiveBinWide: return kAdaptiveBinWideCode;
+    case Shader::AdaptiveTiles: return kAdaptiveTilesCode;
+    case Shader::AdaptiveRaster: return kAdaptiveRasterCode;
   }
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders, compiled from shaders/*.comp when the library is built.
+// The shaders, compiled from shaders/*.comp and shaders/adaptive/*.comp when the library is built.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,20 @@ enum class Shader : std::uint8_t {
   Primitives,
   LargePrimitives,
   Vertices,
+  AdaptiveSearch,
+  AdaptiveMeasure,
+  AdaptiveBudget,
+  AdaptiveTrace,
+  AdaptiveVertices,
+  AdaptiveCells,
+  AdaptiveCut,
+  AdaptiveSizes,
+  AdaptiveBin,
+  AdaptiveBinWide,
+  AdaptiveTiles,
+  AdaptiveRaster,
 };
-inline constexpr std::size_t kShaders = 10;
+inline constexpr std::size_t kShaders = 22;
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);
 

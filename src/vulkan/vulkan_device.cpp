@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "render/device/frame_device.h"
+#include "vulkan/adaptive_frame.h"
 #include "vulkan/device_context.h"
 #include "vulkan/grid_frame.h"
 #include "vulkan/instance.h"
@@ -36,27 +37,20 @@ class VulkanDevice final : public FrameDevice {
   }
 
   Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) override {
-    const auto from = Clock::now();
-    DeviceWork work;
-    const auto done = guarded([&] {
-      DeviceContext& device = this->context();
-      const std::uint64_t submissions = device.submissions(), invocations = device.invocations();
-      if (job.grids.empty()) {
-        std::ranges::fill(image.pixels, 0.0F);
-        return;
-      }
-      work = GridFrame(device, info_, job, {}).draw(image, context);
-      work.submissions = device.submissions() - submissions;
-      work.invocations = device.invocations() - invocations;
+    adaptive_.paths = nullptr;  // grids use the same buffers
+    return run(job.grids.empty(), image, context,
+               [&](DeviceContext& device) { return GridFrame(device, info_, job, {}).draw(image, context); });
+  }
+
+  Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) override {
+    return run(job.items.empty(), image, context, [&](DeviceContext& device) {
+      return AdaptiveFrame(device, info_, job, adaptive_).draw(image, context);
     });
-    if (!done) return tl::unexpected(done.error());
-    if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled");
-    work.ms = ms_since(from);
-    return work;
   }
 
   Result<DeviceRays> trace(const DeviceGrid& grid) override {
     DeviceRays out;
+    adaptive_.paths = nullptr;
     const auto done = guarded([&] { out = trace_alone(context(), grid); });
     if (!done) return tl::unexpected(done.error());
     return out;
@@ -68,6 +62,28 @@ class VulkanDevice final : public FrameDevice {
       context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_.longest_wait_s,
                                                  options_.before_submission);
     return *context_;
+  }
+
+  // Draws an image, which is dark where there is nothing to draw, and measures the work.
+  template <class Draw>
+  [[nodiscard]] Result<DeviceWork> run(bool is_dark, Image& image, const Context& context, const Draw& draw) {
+    const auto from = Clock::now();
+    DeviceWork work;
+    const auto done = guarded([&] {
+      DeviceContext& device = this->context();
+      const std::uint64_t submissions = device.submissions(), invocations = device.invocations();
+      if (is_dark) {
+        std::ranges::fill(image.pixels, 0.0F);
+        return;
+      }
+      work = draw(device);
+      work.submissions = device.submissions() - submissions;
+      work.invocations = device.invocations() - invocations;
+    });
+    if (!done) return tl::unexpected(done.error());
+    if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled");
+    work.ms = ms_since(from);
+    return work;
   }
 
   [[nodiscard]] DeviceRays trace_alone(DeviceContext& device, const DeviceGrid& grid) const;
@@ -92,6 +108,7 @@ class VulkanDevice final : public FrameDevice {
     } catch (const std::exception& error) {
       message = error.what();
     }
+    adaptive_ = {};
     context_.reset();
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
@@ -101,6 +118,7 @@ class VulkanDevice final : public FrameDevice {
   DeviceInfo info_;
   DeviceOptions options_;
   std::unique_ptr<DeviceContext> context_;
+  AdaptiveKept adaptive_;
 };
 
 DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {
@@ -115,13 +133,16 @@ DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& gr
   const std::uint64_t count = ray_count(grid);
   device.need(Slot::Rays, kRayBytes * count);
   device.need(Slot::Crossings, kCrossingBytes * count);
+  device.need_fetched((kRayBytes + kCrossingBytes) * count);
   device.begin();
   device.dispatch(grid.precision == PacketPrecision::Double ? Shader::TraceDouble : Shader::TraceFloat, p,
                   groups_of(count, info_));
   device.barrier();
-  const std::vector<float> rays = device.finish_and_read(Slot::Rays, 4 * count);
-  device.begin();
-  const std::vector<float> crossings = device.finish_and_read(Slot::Crossings, 2 * kMaxStopCrossings * count);
+  device.fetch(Slot::Rays, kRayBytes * count);
+  device.fetch(Slot::Crossings, kCrossingBytes * count, kRayBytes * count);
+  device.finish();
+  const auto* const rays = device.read<float>();
+  const auto* const crossings = device.read<float>(kRayBytes * count);
   DeviceRays out;
   for (std::size_t k = 0; k < count; ++k) {
     const float height = rays[4 * k + 3];

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/tasks.h"
 #include "render/adaptive/budget/item_budget.h"
+#include "render/adaptive/device_items.h"
 #include "render/adaptive/item.h"
 #include "render/adaptive/patterned_items.h"
 #include "render/adaptive/shadowed_items.h"
@@ -222,6 +223,11 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   const Frame& frame = settings.frame;
   Stopwatch whole;
   Stopwatch watch;
+  KeptDevice& kept = *cache.section<KeptDevice>({});
+  if (kept.may_draw(device_lacks(planned))) {
+    auto drawn = draw_on_device(kept, planned, options, context);
+    if (!kept.falls_back(drawn)) return drawn;
+  }
 
   DrawnFlare flare;
   const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris)};

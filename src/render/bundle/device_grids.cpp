@@ -62,11 +62,11 @@ std::string device_lacks(const GridSource& source, const FramePlan& plan) {
 
 Result<DrawnFlare> draw_on_device(KeptDevice& kept, const GridSource& source, const PlannedFrame& planned,
                                   const FramePlan& plan, const Context& context) {
-  DeviceFrame frame(plan, planned.settings.frame);
+  DeviceFrame frame(plan, planned.settings.frame, planned.cache);
   const std::vector<Item> items = items_of(plan, source.options);
   Counts counts;
   const bool done = ordered_pipeline(
-      items.size(), frame.part(context, DeviceFrame::kSearch),
+      items.size(), part_of(context, kDeviceSearch),
       [&](std::size_t k) { return find_grids(items[k], planned.settings.frame, source); },
       [&](std::size_t k, FoundGrids& found) {
         counts.add(found.counts);

@@ -5,48 +5,69 @@
 #include <utility>
 
 #include "base/tasks.h"
+#include "render/planning/frame_memory.h"
 #include "render/planning/layer_images.h"
 
 namespace contrejour::inline internal {
 
-DeviceFrame::DeviceFrame(const FramePlan& plan, const Frame& frame)
-    : plan_(plan), frame_(frame), by_layer_(plan.layers ? plan.layers->count() : 1) {}
+std::size_t layer_count(const FramePlan& plan) { return plan.layers ? plan.layers->count() : 1; }
 
-void DeviceFrame::add(std::size_t layer, std::vector<DeviceGrid> grids) {
-  auto& all = by_layer_[layer];
-  all.insert(all.end(), std::make_move_iterator(grids.begin()), std::make_move_iterator(grids.end()));
+Context part_of(const Context& whole, ProgressPart part) {
+  Context out = whole;
+  if (whole.progress)
+    out.progress = [&whole, part](double done) { whole.progress(part.from + (part.to - part.from) * done); };
+  return out;
 }
 
-Context DeviceFrame::part(const Context& whole, Part of) {
-  Context part = whole;
-  if (whole.progress) part.progress = [&whole, of](double done) { whole.progress(of.from + (of.to - of.from) * done); };
-  return part;
-}
-
-Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const IrisShape& iris, const GridStyle& style,
-                                     RenderStatistics statistics, const Context& context) {
-  const double search_ms = ms_since(start_);
-  LayerImages images(plan_, frame_);
+Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target, const std::vector<bool>& has_light,
+                               const DrawLayer& draw_layer, const Context& context) {
+  const FramePlan& plan = target.plan;
+  LayerImages images(plan, target.frame);
+  if (!plan.layers) images.set(0, unwritten_image(target.cache, target.frame.width, target.frame.height));
   DeviceWork work;
-  const auto count = static_cast<double>(by_layer_.size());
-  for (std::size_t layer = 0; layer < by_layer_.size(); ++layer) {
-    if (by_layer_[layer].empty() && plan_.layers) continue;
-    const auto at = [&](double done) { return kSearch.to + (1.0 - kSearch.to) * done / count; };
-    const Context drawing = part(context, {at(static_cast<double>(layer)), at(static_cast<double>(layer) + 1.0)});
-    auto one = device.draw({frame_, iris, by_layer_[layer], style}, images.at(layer), drawing);
+  const auto count = static_cast<double>(has_light.size());
+  for (std::size_t layer = 0; layer < has_light.size(); ++layer) {
+    if (!has_light[layer] && plan.layers) continue;
+    const auto at = [&](double done) { return kDeviceSearch.to + (1.0 - kDeviceSearch.to) * done / count; };
+    const Context drawing = part_of(context, {at(static_cast<double>(layer)), at(static_cast<double>(layer) + 1.0)});
+    const auto one = draw_layer(layer, images.at(layer), drawing);
     if (!one) return tl::unexpected(one.error());
     work.add(*one);
   }
   if (context.progress) context.progress(1.0);
   DrawnFlare flare;
   images.move_to(flare);
-  flare.statistics = std::move(statistics);
-  flare.statistics.device = device.info().name;
-  flare.statistics.primitives = work.primitives;
-  flare.statistics.ghosts_rendered = static_cast<int>(plan_.ghosts.size());
-  flare.statistics.ghosts_skipped_flux = plan_.skipped_flux;
-  flare.statistics.time_ms = {{"search", search_ms}, {"device", work.ms}, {"total", search_ms + work.ms}};
+  flare.statistics = std::move(target.statistics);
+  RenderStatistics& stats = flare.statistics;
+  stats.device = device.info().name;
+  stats.primitives = work.primitives;
+  if (stats.rays == 0) stats.rays = work.rays;
+  stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
+  stats.ghosts_skipped_flux = plan.skipped_flux;
+  stats.time_ms = {{"search", target.search_ms}, {"device", work.ms}};
+  for (const auto& [stage, ms] : work.stages_ms) stats.time_ms.emplace_back("device: " + stage, ms);
+  stats.time_ms.emplace_back("total", target.search_ms + work.ms);
   return flare;
+}
+
+DeviceFrame::DeviceFrame(const FramePlan& plan, const Frame& frame, RenderCache& cache)
+    : plan_(plan), frame_(frame), cache_(cache), by_layer_(layer_count(plan)) {}
+
+void DeviceFrame::add(std::size_t layer, std::vector<DeviceGrid> grids) {
+  auto& all = by_layer_[layer];
+  all.insert(all.end(), std::make_move_iterator(grids.begin()), std::make_move_iterator(grids.end()));
+}
+
+Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const IrisShape& iris, const GridStyle& style,
+                                     RenderStatistics statistics, const Context& context) {
+  std::vector<bool> has_light;
+  for (const auto& grids : by_layer_) has_light.push_back(!grids.empty());
+  return draw_layers(
+      device, {plan_, frame_, cache_, std::move(statistics), ms_since(start_)}, has_light,
+      [&](std::size_t layer, Image& image, const Context& drawing) {
+        return device.draw(GridJob{frame_, iris, by_layer_[layer], style}, image, drawing);
+      },
+      context);
 }
 
 std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame that a device draws from grids, layer by layer: what the methods that draw grids have in common.
+// A frame that a device draws, layer by layer: what all methods have in common.
 // Thread-safety: one thread at a time.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,37 @@
 
 namespace contrejour::inline internal {
 
+// Draws the light of a layer into its image, which it replaces.
+using DrawLayer = std::function<Result<DeviceWork>(std::size_t layer, Image& image, const Context& context)>;
+
+// What a frame is drawn into, and what is known of it before.
+struct DeviceTarget {
+  const FramePlan& plan;
+  const Frame& frame;
+  RenderCache& cache;  // whose memory the picture uses
+  RenderStatistics statistics;  // of the search
+  double search_ms = 0.0;
+};
+
+// Draws all layers that have light. has_light: by layer. Errors: those of the device; Cancelled.
+[[nodiscard]] Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target,
+                                             const std::vector<bool>& has_light, const DrawLayer& draw_layer,
+                                             const Context& context);
+
+// The number of the plan's layers, 1 where there is one picture.
+[[nodiscard]] std::size_t layer_count(const FramePlan& plan);
+
+// Parts of the progress.
+struct ProgressPart {
+  double from, to;
+};
+inline constexpr ProgressPart kDeviceSearch{0.0, 0.3};
+[[nodiscard]] Context part_of(const Context& whole, ProgressPart part);
+
+// The grids of a frame, by layer, for the methods that draw grids.
 class DeviceFrame {
  public:
-  DeviceFrame(const FramePlan& plan, const Frame& frame);
+  DeviceFrame(const FramePlan& plan, const Frame& frame, RenderCache& cache);
 
   void add(std::size_t layer, std::vector<DeviceGrid> grids);
 
@@ -23,16 +52,10 @@ class DeviceFrame {
   [[nodiscard]] Result<DrawnFlare> draw(FrameDevice& device, const IrisShape& iris, const GridStyle& style,
                                         RenderStatistics statistics, const Context& context);
 
-  // Parts of the progress.
-  struct Part {
-    double from, to;
-  };
-  static constexpr Part kSearch{0.0, 0.3};
-  [[nodiscard]] static Context part(const Context& whole, Part of);
-
  private:
   const FramePlan& plan_;
   const Frame& frame_;
+  RenderCache& cache_;
   Clock::time_point start_ = Clock::now();
   std::vector<std::vector<DeviceGrid>> by_layer_;
 };

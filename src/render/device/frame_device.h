@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -45,10 +46,53 @@ struct GridJob {
   const GridStyle& style;
 };
 
+// The paths of a lens's ghosts, from any point of the entrance plane. A device keeps what it was given last, so that
+// frames with the same object upload nothing of it again.
+struct DevicePaths {
+  std::shared_ptr<const void> owner;  // of what the paths refer to
+  std::vector<PacketPath> paths;  // their starts do not count
+};
+
+// A light: its ray through the lower corner of its window of the entrance plane, and the direction of the plane that
+// holds the light and the lens's axis, a unit vector.
+struct DeviceStart {
+  PacketStart start;
+  Vec2 meridian{1.0, 0.0};
+};
+
+// A ghost of a light at one wavelength, of which the device itself finds the pupil and chooses the rays.
+struct DeviceItem {
+  std::uint32_t path = 0, start = 0;  // numbers in the job
+  Vec2 window_mm;  // size of the window of the entrance plane in which the pupil lies
+  double irradiance = 1.0;  // a ray of transmission 1 carries its part of the window's area times this
+  std::array<float, 3> gain{};  // from flux to pixel values
+  Vec2 shift_mm{};  // of the ghost, on the sensor
+};
+
+// The wavelengths of one ghost and light: items that follow each other, by their numbers.
+struct DeviceGroup {
+  std::uint32_t first = 0, count = 0;
+  std::uint32_t middle = 0;  // the item whose pupil serves all
+};
+
+// A frame to be drawn with no more rays than an error needs, as `adaptive` does.
+struct AdaptiveJob {
+  const Frame& frame;
+  const IrisShape& iris;  // not a picture
+  std::shared_ptr<const DevicePaths> paths;
+  std::span<const DeviceStart> starts;
+  std::span<const DeviceItem> items;
+  std::span<const DeviceGroup> groups;
+  double error = 0.003;  // AdaptiveOptions::error
+  double least_peak = 0.0;  // FramePlan::min_peak
+  bool is_read = true;  // false: the image's values are left undefined, and the picture stays on the device
+};
+
 // The work of a device, and what it took.
 struct DeviceWork {
   std::uint64_t rays = 0, primitives = 0, invocations = 0, submissions = 0, uploaded_bytes = 0;
   double ms = 0.0;
+  std::vector<std::pair<std::string, double>> stages_ms = {};  // by the device's own clock; empty: it has none
 
   void add(const DeviceWork& other) {
     rays += other.rays;
@@ -57,6 +101,7 @@ struct DeviceWork {
     submissions += other.submissions;
     uploaded_bytes += other.uploaded_bytes;
     ms += other.ms;
+    stages_ms.insert(stages_ms.end(), other.stages_ms.begin(), other.stages_ms.end());
   }
 };
 
@@ -78,6 +123,9 @@ class FrameDevice {
   // Draws grids into the image, whose values it replaces: the same bits whenever it is called. Errors: Unsupported, if
   // the device fails (out of memory, lost, no answer), after which the next call starts anew; Cancelled.
   [[nodiscard]] virtual Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) = 0;
+
+  // Draws items into the image likewise.
+  [[nodiscard]] virtual Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) = 0;
 
   // Traces one grid alone, for comparison with trace_packets(). Errors: as draw().
   [[nodiscard]] virtual Result<DeviceRays> trace(const DeviceGrid& grid) = 0;

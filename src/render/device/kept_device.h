@@ -23,6 +23,7 @@ struct KeptDevice {
   [[nodiscard]] static std::size_t memory_bytes() { return 0; }
 
   std::unique_ptr<FrameDevice> device;  // null: frames are drawn by the CPU
+  bool reads_pictures = true;           // AdaptiveJob::is_read
   bool is_required = false;             // if it fails, a frame fails, in place of being drawn by the CPU
   std::string reason;                   // why the CPU drew the last frame although there is a device
 

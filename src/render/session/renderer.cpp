@@ -102,20 +102,25 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
                                           const FrameTarget& target, const Context& context) {
   state_->cache.next_frame();
   const Frame& frame = settings.frame;
-  if (const auto good = check_view(target.pixels, frame.width, frame.height); !good)
+  const bool is_written = target.pixels.pixels != nullptr || target.pixels.width != 0;
+  if (const auto good = check_view(target.pixels, frame.width, frame.height); is_written && !good)
     return tl::unexpected(good.error());
   Context quiet = context;
   quiet.progress = {};
   double drafted = 0.0;
-  if (target.draft_is_ready) {
+  if (target.draft_is_ready && is_written) {
     auto draft = state_->render(AdaptiveOptions{kDraftError}, lights, settings, quiet);
     if (!draft) return tl::unexpected(draft.error());
     if (const auto written = state_->write(std::move(*draft), target.pixels, quiet); !written) return written;
     target.draft_is_ready();
     drafted = kDraftProgress;
   }
+  KeptDevice& kept = *state_->cache.section<KeptDevice>({});
+  kept.reads_pictures = is_written;
   auto flare = state_->render(state_->method, lights, settings, rest_of(context, drafted));
+  kept.reads_pictures = true;
   if (!flare) return tl::unexpected(flare.error());
+  if (!is_written) return std::move(flare->statistics);
   return state_->write(std::move(*flare), target.pixels, quiet);
 }
 

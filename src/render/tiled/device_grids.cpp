@@ -89,14 +89,13 @@ std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan,
 
 Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options, const StopTransmittances& stops,
                                   const PlannedFrame& planned, const FramePlan& plan, const Context& context) {
-  DeviceFrame frame(plan, planned.settings.frame);
+  DeviceFrame frame(plan, planned.settings.frame, planned.cache);
   const std::vector<DevicePass> passes = passes_of(plan);
   const SearchInput input{planned.lens, options, stops, plan, planned.settings.frame.pixel_pitch_mm};
   RenderStatistics statistics;
   statistics.method = "tiled";
   const bool done = ordered_pipeline(
-      passes.size(), frame.part(context, DeviceFrame::kSearch),
-      [&](std::size_t k) { return find_grid(passes[k], input); },
+      passes.size(), part_of(context, kDeviceSearch), [&](std::size_t k) { return find_grid(passes[k], input); },
       [&](std::size_t k, FoundGrid& found) {
         statistics.rays += found.rays;
         statistics.surface_hits += found.surface_hits;

@@ -5,54 +5,18 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
-#include "sums.glsl"
+#include "light.glsl"
 #include "iris.glsl"
 #include "polygon.glsl"
+#include "cell.glsl"
 #include "coverage.glsl"
 
-#define SHADED_CELL_PX 4.0
-#define SLIVER 1e-7
 #define LARGE_PX 64  // pixels of the bounds from which on a polygon is listed
-#define STATE_CLOSED 0
-#define STATE_CUT 1
-#define STATE_OPEN 2
 
-struct Density {
-  vec2 point;  // relative to base
-  float value;
-  vec2 gradient;
-};
-
-ivec2 base;  // a pixel near the cell: coordinates relative to it keep their digits
 shared uint primitive_count;
 uint primitives;
 
-float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 uint ray_at(uint ix, uint iy) { return p.first_ray + iy * p.side + ix; }
-vec2 pixel_of(uint ray) { return rays[ray].xy - vec2(base); }
-
-int state_of(uvec4 v) {
-  bool open = true, high = true;
-  for (int k = 0; k < 4; ++k) {
-    open = open && passes(v[k]);
-    high = high && rays[v[k]].w > 1.0;
-  }
-  if (open) return STATE_OPEN;
-  if (high) return STATE_CLOSED;
-  for (uint c = 0u; c < p.crossing_count; ++c) {
-    bool outside = true;
-    for (int k = 0; k < 4; ++k) outside = outside && !(iris_distance(crossing(v[k], c)) <= 0.0);
-    if (outside) return STATE_CLOSED;
-  }
-  return STATE_CUT;
-}
-
-bool outside_frame(uvec4 v) {
-  vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
-  vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
-  return !(low.x < float(p.width) && low.y < float(p.height) && high.x >= 0.0 && high.y >= 0.0);
-}
-
 float triangle_flux(uvec3 t) { return p.triangle_weight * (rays[t.x].z + rays[t.y].z + rays[t.z].z) / 3.0; }
 
 void add_point(vec2 at, float flux) {
@@ -158,28 +122,6 @@ void add_quad(vec2 a, vec2 b, vec2 c, vec2 d, float area, Density density) {
   }
 }
 
-bool in_one_pixel() {
-  for (int k = 1; k < corner_count; ++k)
-    if (floor(polygon[k]) != floor(polygon[0])) return false;
-  return true;
-}
-
-void farthest_corners(out vec2 from, out vec2 to) {
-  from = polygon[0];
-  to = polygon[0];
-  float longest = 0.0;
-  for (int i = 0; i < corner_count; ++i) {
-    for (int j = 0; j < i; ++j) {
-      vec2 between = polygon[i] - polygon[j];
-      if (dot(between, between) > longest) {
-        longest = dot(between, between);
-        from = polygon[j];
-        to = polygon[i];
-      }
-    }
-  }
-}
-
 // A part of a triangle's image. fraction: the part's fraction of the triangle's flux.
 void draw_polygon(uvec3 t, float fraction, vec2 gradient) {
   vec2 p0 = pixel_of(t.x), p1 = pixel_of(t.y), p2 = pixel_of(t.z);
@@ -205,7 +147,8 @@ void draw_triangle(uvec3 t, bool is_cut, vec2 gradient) {
   vec2 p0 = pixel_of(t.x), p1 = pixel_of(t.y), p2 = pixel_of(t.z);
   float fraction = 1.0;
   if (is_cut) {
-    clip_triangle(t);
+    set_triangle(t, p.crossing_count);
+    clip_triangle(p.crossing_count);
     if (corner_count < 3) return;
     fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
     for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;
@@ -216,11 +159,6 @@ void draw_triangle(uvec3 t, bool is_cut, vec2 gradient) {
     corner_count = 3;
   }
   draw_polygon(t, fraction, gradient);
-}
-
-bool is_convex(vec2 a, vec2 b, vec2 c, vec2 d, float orientation) {
-  return cross2(b - a, c - a) * orientation > 0.0 && cross2(c - b, d - b) * orientation > 0.0 &&
-         cross2(d - c, a - c) * orientation > 0.0 && cross2(a - d, b - d) * orientation > 0.0;
 }
 
 // Returns false where the cell's triangles are to be drawn in its place.
@@ -239,17 +177,9 @@ bool draw_open(uvec4 v, bool is_smooth, float area, vec2 gradient) {
   return true;
 }
 
-// The plane whose differences along both diagonals are those of the vertices' irradiances, relative to their mean.
-vec2 gradient_of(uvec4 v, vec4 e) {
-  vec2 d = rays[v.z].xy - rays[v.x].xy, f = rays[v.w].xy - rays[v.y].xy;
-  float mean = 0.25 * (e.x + e.y + e.z + e.w);
-  float along_d = (e.z - e.x) / mean, along_f = (e.w - e.y) / mean;
-  return vec2(along_d * f.y - along_f * d.y, along_f * d.x - along_d * f.x) / cross2(d, f);
-}
-
 void draw_cell(uint ix, uint iy) {
   uvec4 v = uvec4(ray_at(ix, iy), ray_at(ix + 1u, iy), ray_at(ix + 1u, iy + 1u), ray_at(ix, iy + 1u));
-  int state = state_of(v);
+  int state = state_of(v, p.crossing_count);
   if (state == STATE_CLOSED) return;
   bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
   if (!any_failed && outside_frame(v)) return;

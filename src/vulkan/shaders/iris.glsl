@@ -22,8 +22,8 @@ float iris_distance(vec2 q) {
 }
 
 // The largest of relative_height - 1 and the iris distances: <= 0 where a ray passes.
-float blocked(uint ray) {
+float blocked(uint ray, uint crossing_count) {
   float most = rays[ray].w - 1.0;
-  for (uint c = 0u; c < p.crossing_count; ++c) most = max(most, iris_distance(crossing(ray, c)));
+  for (uint c = 0u; c < crossing_count; ++c) most = max(most, iris_distance(crossing(ray, c)));
   return most;
 }

@@ -7,6 +7,10 @@ vec2 polygon[MAX_CORNERS];  // in (u, v) of a triangle, then in pixels relative 
 int corner_count;
 vec2 next_polygon[MAX_CORNERS];
 
+// The triangle of rays that is clipped: relative heights, and where the rays cross the stop.
+float heights_of_triangle[3];
+vec2 stops_of_triangle[MAX_CROSSINGS][3];
+
 // Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
 void cut(float at_0, float at_1, float at_2) {
   if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
@@ -51,8 +55,8 @@ void clip_by_bound(vec2 stop[3], uint b) {
   }
 }
 
-void clip_by_iris(uvec3 t, uint c) {
-  vec2 stop[3] = vec2[3](crossing(t.x, c), crossing(t.y, c), crossing(t.z, c));
+void clip_by_iris(uint c) {
+  vec2 stop[3] = stops_of_triangle[c];
   if (iris_distance(stop[0]) <= 0.0 && iris_distance(stop[1]) <= 0.0 && iris_distance(stop[2]) <= 0.0) return;
   if ((p.flags & FLAG_CIRCLE) != 0u) {
     clip_by_circle(stop, vec2(0.0), 1.0);
@@ -61,14 +65,21 @@ void clip_by_iris(uvec3 t, uint c) {
   }
 }
 
-// Leaves the open part of a triangle of rays in (u, v).
-void clip_triangle(uvec3 t) {
+void set_triangle(uvec3 t, uint crossing_count) {
+  for (int k = 0; k < 3; ++k) {
+    heights_of_triangle[k] = rays[t[k]].w;
+    for (uint c = 0u; c < crossing_count; ++c) stops_of_triangle[c][k] = crossing(t[k], c);
+  }
+}
+
+// Leaves the open part of the triangle of rays in (u, v).
+void clip_triangle(uint crossing_count) {
   polygon[0] = vec2(0.0);
   polygon[1] = vec2(1.0, 0.0);
   polygon[2] = vec2(0.0, 1.0);
   corner_count = 3;
-  cut(rays[t.x].w - 1.0, rays[t.y].w - 1.0, rays[t.z].w - 1.0);
-  for (uint c = 0u; c < p.crossing_count && corner_count >= 3; ++c) clip_by_iris(t, c);
+  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
+  for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_iris(c);
 }
 
 float twice_polygon_area() {

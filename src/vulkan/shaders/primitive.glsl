@@ -62,7 +62,9 @@ bool is_beside(vec2 from, vec2 to, float edge) {
 float light_at(Primitive q, ivec2 pixel, uint crossing_count) {
   vec2 middle = vec2(pixel) + 0.5;
   vec2 s[4];
-  vec4 edge, w;
+  vec4 w;
+  // Without fused multiply-adds, so that an edge is exactly the negative of its neighbour's, and one without a length is 0.
+  precise vec4 edge;
   for (int i = 0; i < 4; ++i) s[i] = rays[q.v[i]].xy - middle;
   for (int i = 0; i < 4; ++i) {
     int j = (i + 1) % 4;

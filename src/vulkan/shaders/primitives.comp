@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
-#include "sums.glsl"
+#include "light.glsl"
 #include "iris.glsl"
 #include "quad.glsl"
 #include "primitive.glsl"

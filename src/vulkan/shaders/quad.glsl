@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells and blocks of cells on the frame: render/tiled/primitive_builder.cpp under the same names.
-float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 uint ray_at(uint ix, uint iy) { return p.first_ray + iy * p.side + ix; }
 uvec4 corners_of(uint size, uint ix, uint iy) {
   return uvec4(ray_at(ix * size, iy * size), ray_at((ix + 1u) * size, iy * size),

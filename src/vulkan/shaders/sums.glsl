@@ -12,16 +12,20 @@ uvec2 to_fixed(float value) {
   return uvec2(~low + 1u, ~high + (low == 0u ? 1u : 0u));
 }
 
+float from_fixed(uint low, uint high) {
+  bool negative = (high & 0x80000000u) != 0u;
+  if (negative) {
+    low = ~low + 1u;
+    high = ~high + (low == 0u ? 1u : 0u);
+  }
+  float size = float(high) * 4294967296.0 + float(low);
+  return negative ? -size : size;
+}
+
 void add_to_channel(uint at, float value) {
   uvec2 fixed_value = to_fixed(value);
   if ((fixed_value.x | fixed_value.y) == 0u) return;
   uint before = atomicAdd(sums[at], fixed_value.x);
   uint carry = before > ~fixed_value.x ? 1u : 0u;
   if (fixed_value.y + carry != 0u) atomicAdd(sums[at + 1u], fixed_value.y + carry);
-}
-
-// Adds flux to a pixel of the frame.
-void add_light(int x, int y, float flux) {
-  uint at = 6u * (uint(y) * uint(p.width) + uint(x));
-  for (uint c = 0u; c < 3u; ++c) add_to_channel(at + 2u * c, flux * p.gain[c]);
 }

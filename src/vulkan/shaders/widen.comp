@@ -38,7 +38,7 @@ void main() {
   dvec3 sums = dvec3(0.0);
   for (uint k = gl_LocalInvocationIndex; k < rays_of_grid; k += 64u) {
     uint ray = p.first_ray + k;
-    if (blocked(ray) <= 0.0) sums += dvec3(1.0, rays[ray].xy);
+    if (blocked(ray, p.crossing_count) <= 0.0) sums += dvec3(1.0, rays[ray].xy);
   }
   dvec3 moments = sum_over_group(sums);
   double count = moments.x;
@@ -48,7 +48,7 @@ void main() {
   for (uint k = gl_LocalInvocationIndex; k < rays_of_grid; k += 64u) {
     uint ray = p.first_ray + k;
     dvec2 from = dvec2(rays[ray].xy) - mean;
-    if (blocked(ray) <= 0.0) sums += dvec3(from.x * from.x, from.x * from.y, from.y * from.y);
+    if (blocked(ray, p.crossing_count) <= 0.0) sums += dvec3(from.x * from.x, from.x * from.y, from.y * from.y);
   }
   dvec3 squares = sum_over_group(sums);
   float axis_angle = 0.5 * atan(float(2.0 * squares.y), float(squares.x - squares.z));

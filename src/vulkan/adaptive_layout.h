@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters, items and counters of the shaders of `adaptive`, as shaders/adaptive/common.glsl reads them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace contrejour::inline internal::vulkan {
+
+inline constexpr std::uint32_t kSearchLevels = 4, kMostLevels = 6;  // LEVELS
+inline constexpr std::uint32_t kFirstSearchBlocks = 13, kSearchBlocks = 4;  // search_blocks()
+
+// The parameters of a dispatch: the shaders' push constants, in their order.
+struct AdaptiveParameters {
+  std::uint32_t item_count = 0, group_count = 0, level = 0, flags = 0;
+  std::uint32_t bound_count = 0, tiles_across = 0, tiles_down = 0;
+  std::int32_t width = 0, height = 0;
+  std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, list_capacity = 0, cut_capacity = 0;
+  float budget = 0, least_peak = 0;
+};
+
+struct ItemRecord {
+  std::uint32_t reals_at = 0, integers_at = 0, step_count = 0, group = 0, crossing_count = 0;
+  float irradiance = 0;
+  std::array<float, 3> gain{};
+  std::array<float, 2> window_mm{};
+  std::uint32_t start = 0;
+  std::array<float, 2> pixel_origin{};  // of the sensor's middle, with the ghost's displacement
+  std::array<std::uint32_t, 2> unused{};
+};
+static_assert(sizeof(ItemRecord) == 64);
+
+struct GroupRecord {
+  std::uint32_t first = 0, count = 0, middle = 0, unused = 0;
+};
+
+inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 64, kCutBytes = 8,
+                               kHistogramBytes = 4096;
+inline constexpr std::uint32_t kAdaptiveTile = 16, kRaysABlock = 64;
+
+// Words of Slot::Counters.
+enum AdaptiveCounter : std::uint32_t {
+  kPolygonsListed,
+  kCornersListed,
+  kCutCells,
+  kTileEntries,
+  kAdaptiveOverflows,
+  kRayBlocks,
+  kPeakBits,
+  kWidePolygons,
+  kAdaptiveCounters,
+};
+
+// Bytes of Slot::Indirect.
+inline constexpr std::uint64_t kIndirectRays = 0, kIndirectCut = 12, kIndirectPolygons = 24, kIndirectWide = 36;
+inline constexpr std::uint64_t kIndirectBytes = 48;
+
+}  // namespace contrejour::inline internal::vulkan

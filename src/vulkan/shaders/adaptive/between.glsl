@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values between the rays of a grid: bilinear in a cell, with the curvature that the rays around it show. All values are
+// the same sums over twelve rays.
+//
+//        0  1
+//     2  3  4  5      the cell is 3, 4, 8, 7
+//     6  7  8  9
+//       10 11
+uint around[12];
+bool exists[12];
+
+const ivec2 kAround[12] = ivec2[12](ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, 0), ivec2(1, 0), ivec2(2, 0),
+                                    ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(0, 2), ivec2(1, 2));
+
+void find_around() {
+  ivec2 cell = ivec2(own % side, own / side);
+  for (int k = 0; k < 12; ++k) {
+    ivec2 at = cell + kAround[k];
+    bool inside = at.x >= 0 && at.y >= 0 && at.x < int(side) && at.y < int(side);
+    around[k] = inside ? ray_at(uint(at.x), uint(at.y)) : 0u;
+    exists[k] = inside && !failed(rays[around[k]]);
+  }
+}
+
+float weights[12];
+
+// Subtracts t (1 - t) / 2 times the mean second difference along a row of rays, as far as there are rays.
+void bend(int before, int first, int last, int after, float amount) {
+  float count = float(exists[before]) + float(exists[after]);
+  if (count == 0.0) return;
+  float by = amount / count;
+  if (exists[before]) {
+    weights[before] -= by;
+    weights[first] += 2.0 * by;
+    weights[last] -= by;
+  }
+  if (exists[after]) {
+    weights[first] -= by;
+    weights[last] += 2.0 * by;
+    weights[after] -= by;
+  }
+}
+
+void set_weights(vec2 at) {
+  for (int k = 0; k < 12; ++k) weights[k] = 0.0;
+  weights[3] = (1.0 - at.x) * (1.0 - at.y);
+  weights[4] = at.x * (1.0 - at.y);
+  weights[7] = (1.0 - at.x) * at.y;
+  weights[8] = at.x * at.y;
+  vec2 amount = 0.5 * at * (1.0 - at);
+  bend(2, 3, 4, 5, amount.x * (1.0 - at.y));
+  bend(6, 7, 8, 9, amount.x * at.y);
+  bend(0, 3, 7, 10, amount.y * (1.0 - at.x));
+  bend(1, 4, 8, 11, amount.y * at.x);
+}
+
+vec4 ray_between() {
+  vec4 sum = vec4(0.0);
+  for (int k = 0; k < 12; ++k)
+    if (weights[k] != 0.0) sum += weights[k] * rays[around[k]];
+  return sum;
+}
+
+vec2 crossing_between(uint c) {
+  vec2 sum = vec2(0.0);
+  for (int k = 0; k < 12; ++k)
+    if (weights[k] != 0.0) sum += weights[k] * crossing(around[k], c);
+  return sum;
+}

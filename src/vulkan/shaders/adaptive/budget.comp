@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distributes the error that the frame may make among its items, in one workgroup. An item of n cells a side makes the
+// squared error c / n^4, and costs n^2: the sum of the costs is smallest, for a given sum of errors, where an item's
+// error is in proportion to the cube root of c.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 256) in;
+#include "common.glsl"
+
+#define FEWEST_CELLS 8u
+#define MOST_CELLS 1024u
+#define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
+#define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
+
+shared float numbers[256];
+shared uint counts[256];
+shared uint chosen, faintest;
+
+// The lower end of the bin from which on the brighter samples are as many as are wanted.
+float find_peak() {
+  uint t = gl_LocalInvocationIndex, wanted = wanted_parts();
+  uint own[4];
+  uint sum = 0u;
+  for (uint k = 0u; k < 4u; ++k) {
+    own[k] = sums[4u * t + k];
+    sum += min(own[k], wanted);
+  }
+  counts[t] = sum;
+  if (t == 0u) chosen = 0u;
+  barrier();
+  for (uint reach = 1u; reach < 256u; reach *= 2u) {  // sums from the end
+    uint other = t + reach < 256u ? counts[t + reach] : 0u;
+    barrier();
+    counts[t] = min(counts[t] + other, wanted);
+    barrier();
+  }
+  uint above = t < 255u ? counts[t + 1u] : 0u;
+  if (above < wanted) {
+    for (uint k = 4u; k-- > 0u;) {
+      above += min(own[k], wanted);
+      if (above >= wanted) {
+        chosen = 4u * t + k;
+        break;
+      }
+    }
+  }
+  barrier();
+  // Where less than a thousandth of the frame is lit, the faintest light is the peak.
+  if (chosen == 0u) {
+    for (uint k = 0u; k < 4u; ++k)
+      if (own[k] != 0u) atomicMax(faintest, BINS - (4u * t + k));
+    barrier();
+    return faintest == 0u ? 0.0 : uintBitsToFloat((BINS - faintest) << BIN_SHIFT);
+  }
+  return uintBitsToFloat(chosen << BIN_SHIFT);
+}
+
+float sum_of(float number) {
+  numbers[gl_LocalInvocationIndex] = number;
+  barrier();
+  for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
+    if (gl_LocalInvocationIndex < half_count)
+      numbers[gl_LocalInvocationIndex] += numbers[gl_LocalInvocationIndex + half_count];
+    barrier();
+  }
+  float sum = numbers[0];
+  barrier();
+  return sum;
+}
+
+float cube_root(float x) { return x > 0.0 ? pow(x, 1.0 / 3.0) : 0.0; }
+
+uint cells_for(uint item, float allowed_by_root) {
+  float error = state(item, STATE_ERROR);
+  if (!(state(item, STATE_FLUX) > 0.0)) return 0u;
+  if (!(allowed_by_root > 0.0)) return COARSE_CELLS;
+  float allowed = allowed_by_root * cube_root(error);
+  float cells = float(COARSE_CELLS) * sqrt(sqrt(error / max(allowed, 1e-37)));
+  // Cells smaller than a third of a pixel show nothing more.
+  cells = min(cells, min(3.0 * state(item, STATE_EXTENT), float(MOST_CELLS)));
+  return max(uint(ceil(cells)), FEWEST_CELLS);
+}
+
+// Draws items by the middle one of their group where that is within the error and keeps the colours.
+void merge(uint group, float allowed_by_root) {
+  uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
+  vec3 gain = item_gain(middle);
+  for (uint item = first; item < first + count; ++item) {
+    uint word = STATE_WORDS * item;
+    uint cells = cells_for(item, allowed_by_root);
+    float allowed = MERGED_SHARE * allowed_by_root * cube_root(state(item, STATE_ERROR));
+    if (item != middle && cells > 0u && state(middle, STATE_FLUX) > 0.0 && state(item, STATE_MERGED_ERROR) <= allowed &&
+        state(item, STATE_DISPLACEMENT) <= LARGEST_MERGED) {
+      gain += item_gain(item) * (state(item, STATE_FLUX) / state(middle, STATE_FLUX));
+      cells = 0u;
+    }
+    states[word + STATE_CELLS] = uintBitsToFloat(cells);
+    for (uint c = 0u; c < 3u; ++c) states[word + STATE_GAIN + c] = item_gain(item)[c];
+  }
+  for (uint c = 0u; c < 3u; ++c) states[STATE_WORDS * middle + STATE_GAIN + c] = gain[c];
+}
+
+uint blocks_of(uint item) {
+  uint cells = cells_of(item);
+  return cells == 0u ? 0u : ((cells + 1u) * (cells + 1u) + 63u) / 64u;
+}
+
+// The sum of the blocks of the items before each.
+uint number_blocks() {
+  uint t = gl_LocalInvocationIndex, before = 0u;
+  for (uint first = 0u; first < p.item_count; first += 256u) {
+    uint item = first + t;
+    counts[t] = item < p.item_count ? blocks_of(item) : 0u;
+    uint own = counts[t];
+    barrier();
+    for (uint reach = 1u; reach < 256u; reach *= 2u) {
+      uint other = t >= reach ? counts[t - reach] : 0u;
+      barrier();
+      counts[t] += other;
+      barrier();
+    }
+    if (item < p.item_count) offsets[item] = before + counts[t] - own;
+    before += counts[255];
+    barrier();
+  }
+  return before;
+}
+
+void main() {
+  uint t = gl_LocalInvocationIndex;
+  if (t == 0u) faintest = 0u;
+  barrier();
+  float peak = max(find_peak(), p.least_peak);
+  float roots = 0.0;
+  for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(state(item, STATE_ERROR));
+  float all_roots = sum_of(roots);
+  float allowed_by_root = all_roots > 0.0 ? p.budget * peak * peak / all_roots : 0.0;
+  for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root);
+  memoryBarrierBuffer();
+  barrier();
+  uint blocks = number_blocks();
+  if (t != 0u) return;
+  offsets[p.item_count] = blocks;
+  bool fits = 64u * blocks <= p.ray_capacity;
+  if (!fits) counters[COUNT_OVERFLOWS] = OVERFLOW_RAYS;
+  counters[COUNT_BLOCKS] = blocks;
+  counters[COUNT_PEAK] = floatBitsToUint(peak);
+  set_dispatch(DISPATCH_RAYS, fits ? blocks : 0u);
+}

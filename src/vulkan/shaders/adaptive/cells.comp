@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists the quadrilaterals of the cells that are open and smooth, one cell an invocation. The others, which take long,
+// are listed for cut.comp.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "common.glsl"
+#include "grid.glsl"
+#include "../iris.glsl"
+#include "../polygon.glsl"
+#include "../cell.glsl"
+#include "list.glsl"
+#include "state.glsl"
+
+// Returns false where the cell's triangles are to be drawn in its place.
+bool list_open(uvec4 v) {
+  vec2 a = pixel_of(v.x), b = pixel_of(v.y), c = pixel_of(v.z), d = pixel_of(v.w);
+  float flux = triangle_flux(v.xyz) + triangle_flux(v.xzw);
+  if (floor(a) == floor(b) && floor(a) == floor(c) && floor(a) == floor(d)) {
+    list_point(a, flux);
+    return true;
+  }
+  vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
+  float area = 0.5 * cross2(c - a, d - b);
+  if (!all(greaterThan(e, vec4(0.0))) || !is_convex(a, b, c, d, area)) return false;
+  vec2 gradient = abs(area) >= SHADED_CELL_PX ? gradient_of(v, e) : vec2(0.0);
+  float value = flux / abs(area);
+  list_quad(a, b, c, d, Density((a + b + c + d) * 0.25, value, gradient * value));
+  return true;
+}
+
+// Parts are no smaller than half a pixel.
+uint cut_parts(uvec4 v) {
+  vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
+  vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
+  uint halves = uint(min(2.0 * max(high.x - low.x, high.y - low.y) + 1.0, 1.0e4));
+  return clamp(min(CUT_FINENESS / (side - 1u), halves), 1u, MOST_CUT_PARTS);
+}
+
+void list_cut(uint parts) {
+  uint at = atomicAdd(counters[COUNT_CUT], parts * parts);
+  if (at + parts * parts > p.cut_capacity) {
+    atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_CUT);
+    return;
+  }
+  for (uint k = 0u; k < parts * parts; ++k)
+    cut_cells[at + k] = uvec2(item, own | (k << CUT_PART_SHIFT) | ((parts - 1u) << CUT_PARTS_SHIFT));
+}
+
+void main() {
+  if (!find_ray() || own % side + 1u == side || own / side + 1u == side) return;
+  uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
+  int how = cell_state(v, crossings_of(item));
+  if (how == STATE_CLOSED) return;
+  bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
+  if (!any_failed && outside_frame(v)) return;
+  set_cell(v);
+  if (how == STATE_OPEN && list_open(v)) return;
+  list_cut(any_failed ? 1u : cut_parts(v));
+}

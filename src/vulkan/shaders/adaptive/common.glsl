@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// The buffers and the parameters of the shaders of `adaptive`, which draw a frame in a fixed number of dispatches: the
+// device itself decides how finely each ghost is drawn. An item is a ghost of a light at one wavelength; a group is all
+// items of a ghost and a light. Sizes and layouts are those of src/vulkan/adaptive_layout.h.
+#include "../buffers.glsl"
+
+#define ITEM_WORDS 16u
+#define GROUP_WORDS 4u
+#define STATE_WORDS 16u
+#define LEVELS 6u  // of the search for the pupil, at most
+
+layout(std430, set = 0, binding = 14) readonly buffer Items { uint items[]; };
+layout(std430, set = 0, binding = 15) readonly buffer Groups { uint groups[]; };
+// By group and level: the box that is searched, lower corner and size, mm from the window's lower corner; and the bounds
+// of its cells through which light passes, then of those through which it may pass, which count where there are no
+// others: each the largest of (cells - column, cells - row, column + 1, row + 1).
+layout(std430, set = 0, binding = 16) buffer Boxes { vec4 boxes[]; };
+layout(std430, set = 0, binding = 17) buffer Found { uint found[]; };
+layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by item
+layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by item: its first block of 64 rays
+layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
+layout(std430, set = 0, binding = 21) buffer TileCounts { uint tile_counts[]; };  // by tile: polygons, and those listed
+layout(std430, set = 0, binding = 22) buffer TileFirst { uint tile_first[]; };    // by tile: where its list begins
+layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };    // polygons by tile
+layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
+
+layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
+layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
+
+layout(push_constant) uniform Parameters {
+  uint item_count, group_count, level, flags;
+  uint bound_count, tiles_across, tiles_down;
+  int width, height;
+  uint ray_capacity, large_capacity, corner_capacity, list_capacity, cut_capacity;
+  float budget;         // squared error of the frame's samples, in peaks
+  float least_peak;     // that errors are relative to
+}
+p;
+
+// Words of `counters`.
+#define COUNT_POLYGONS 0
+#define COUNT_CORNERS 1
+#define COUNT_CUT 2
+#define COUNT_LISTED 3
+#define COUNT_OVERFLOWS 4  // bits: rays, polygons, corners, cut cells, lists
+#define COUNT_BLOCKS 5     // of 64 rays
+#define COUNT_WIDE 7       // polygons of many tiles
+#define COUNT_PEAK 6       // bits of a float: the peak that errors are relative to
+#define OVERFLOW_RAYS 1u
+#define OVERFLOW_POLYGONS 2u
+#define OVERFLOW_CUT 4u
+#define OVERFLOW_LISTS 8u
+
+// Dispatches whose size the device decides: three words each in `indirect`.
+#define DISPATCH_RAYS 0u
+#define DISPATCH_CUT 1u
+#define DISPATCH_POLYGONS 2u
+#define DISPATCH_WIDE 3u
+#define DISPATCH_ROW 1024u  // groups a row
+
+#define TILE_SIDE 16
+
+#define WIDE_TILES 32u  // from which on a polygon has a workgroup of its own
+
+// A part of a cut cell, in cut_cells[].y: the cell's first ray in its grid, the part, the parts a side less 1.
+#define CUT_CELL_MASK 0x1fffffu
+#define CUT_PART_SHIFT 21u
+#define CUT_PARTS_SHIFT 25u
+#define CUT_FINENESS 16u  // parts of cut cells a side of the grid, at least
+#define MOST_CUT_PARTS 4u
+
+// A group of a dispatch in rows, by its number.
+uint linear_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+uint item_word(uint item, uint k) { return items[ITEM_WORDS * item + k]; }
+float item_float(uint item, uint k) { return uintBitsToFloat(item_word(item, k)); }
+uint group_of(uint item) { return item_word(item, 3u); }
+uint crossings_of(uint item) { return item_word(item, 4u); }
+float item_irradiance(uint item) { return item_float(item, 5u); }  // flux of a mm^2 of the entrance plane
+vec3 item_gain(uint item) { return vec3(item_float(item, 6u), item_float(item, 7u), item_float(item, 8u)); }
+vec2 item_window(uint item) { return vec2(item_float(item, 9u), item_float(item, 10u)); }  // its size, mm
+
+// Words of a group: its first item, their number, the item in whose wavelength the pupil is searched.
+uint group_word(uint group, uint k) { return groups[GROUP_WORDS * group + k]; }
+
+// A histogram of the frame's values, in sums[]: bins of a quarter of an octave, in sixteenths of a pixel and channel.
+#define BINS 1024u
+#define BIN_SHIFT 21u  // of a float's bits
+#define PIXEL_PARTS 16.0
+#define BRIGHTER_THAN_PEAK 0.001  // the part of the samples that exceed the peak (metrics.h)
+uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * float(p.width) * float(p.height)), 1u); }
+
+// An item's state: error of a grid of COARSE_CELLS a side, and of drawing it in another one's wavelength, both squared
+// and summed over the pixels; its flux within the frame; the squared displacement from the other, relative
+// to its area; the cells a side; its gains with those of the items that are drawn by it.
+#define STATE_ERROR 0u
+#define STATE_MERGED_ERROR 1u
+#define STATE_FLUX 2u
+#define STATE_DISPLACEMENT 3u
+#define STATE_CELLS 4u
+#define STATE_GAIN 5u
+#define STATE_EXTENT 9u  // of the image, pixels
+#define COARSE_CELLS 15u
+float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
+uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
+vec3 state_gain(uint item) {
+  return vec3(state(item, STATE_GAIN), state(item, STATE_GAIN + 1u), state(item, STATE_GAIN + 2u));
+}
+
+// The box of a level of the search, from the bounds that the level before found.
+uint cells_of_level(uint level) { return COARSE_CELLS * (level == 0u ? 3u : 2u); }
+#define SCANS 4u  // workgroups that scan a group's meridian, at the first level
+uint search_blocks(uint level) { return level == 0u ? 9u + SCANS : 4u; }
+vec4 box_of_level(uint group, uint level) {
+  if (level == 0u) return vec4(0.0, 0.0, item_window(group_word(group, 2u)));
+  uint before = group * LEVELS + level - 1u;
+  vec4 box = boxes[before];
+  uint cells = cells_of_level(level - 1u);
+  uint at = 8u * before + (found[8u * before + 2u] > 0u ? 0u : 4u);
+  uvec4 f = uvec4(found[at], found[at + 1u], found[at + 2u], found[at + 3u]);
+  if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
+  vec2 step_mm = box.zw / float(cells);
+  vec2 low = vec2(cells - f.x, cells - f.y);
+  return vec4(box.xy + low * step_mm, (vec2(f.zw) - low) * step_mm);
+}
+
+// The box in which a group's rays are traced: with a margin for the other wavelengths.
+vec4 final_box(uint group) {
+  const float margin = 0.04;
+  vec4 box = box_of_level(group, p.level);
+  return vec4(box.xy - margin * box.zw, (1.0 + 2.0 * margin) * box.zw);
+}
+
+void set_dispatch(uint dispatch, uint group_count) {
+  indirect[3u * dispatch] = min(group_count, DISPATCH_ROW);
+  indirect[3u * dispatch + 1u] = (group_count + DISPATCH_ROW - 1u) / DISPATCH_ROW;
+  indirect[3u * dispatch + 2u] = 1u;
+}
+
+// The item whose rays are in a block.
+uint item_of_block(uint block) {
+  uint low = 0u, high = p.item_count;
+  while (low + 1u < high) {
+    uint middle = (low + high) / 2u;
+    if (offsets[middle] <= block)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
+}
+

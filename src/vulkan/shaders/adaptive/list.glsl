@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists what is to be drawn: polygons of three corners and more, whose shoelace area is positive, lines of two, points of
+// one. Words of a record, in
+// `large`: the density at a point, its gradient, the point (both 0 for lines and points, whose value is their flux, for
+// a line by length); the gains; the first corner and their number; the base; the bounds, first and last column and row.
+#define RECORD_WORDS 16u
+
+float triangle_weight;  // flux of half a cell of transmission 1
+vec3 gain;
+float triangle_flux(uvec3 t) { return triangle_weight * (rays[t.x].z + rays[t.y].z + rays[t.z].z) / 3.0; }
+
+// The frame's pixels within bounds, as (first, last); false if there are none. The bounds are clamped before they are
+// converted: a ghost may be far larger than an integer.
+bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
+  vec2 frame_low = -vec2(base), frame_high = vec2(p.width, p.height) - vec2(base);
+  if (!(high.x >= frame_low.x && low.x < frame_high.x && high.y >= frame_low.y && low.y < frame_high.y)) return false;
+  ivec2 first = ivec2(floor(max(low, frame_low))), last = ivec2(ceil(min(high, frame_high))) - 1;
+  last = min(max(last, first), ivec2(frame_high) - 1);
+  box = ivec4(first, last);
+  return last.x >= first.x && last.y >= first.y;
+}
+
+// Returns the first corner's place; corners are written by the caller. OVERFLOW: -1.
+int begin_record(Density density, uint count, ivec4 box) {
+  uint at = atomicAdd(counters[COUNT_POLYGONS], 1u);
+  uint first = atomicAdd(counters[COUNT_CORNERS], count);
+  if (at >= p.large_capacity || first + count > p.corner_capacity) {
+    atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_POLYGONS);
+    return -1;
+  }
+  uint word = RECORD_WORDS * at;
+  large[word] = floatBitsToUint(density.value);
+  large[word + 1u] = floatBitsToUint(density.gradient.x);
+  large[word + 2u] = floatBitsToUint(density.gradient.y);
+  large[word + 3u] = floatBitsToUint(density.point.x);
+  large[word + 4u] = floatBitsToUint(density.point.y);
+  for (uint c = 0u; c < 3u; ++c) large[word + 5u + c] = floatBitsToUint(gain[c]);
+  large[word + 8u] = first;
+  large[word + 9u] = count;
+  large[word + 10u] = uint(base.x);
+  large[word + 11u] = uint(base.y);
+  box += base.xyxy;
+  for (uint k = 0u; k < 4u; ++k) large[word + 12u + k] = uint(box[k]);
+  return int(first);
+}
+
+void list_polygon(Density density) {
+  vec2 low = polygon[0], high = polygon[0];
+  for (int k = 1; k < corner_count; ++k) {
+    low = min(low, polygon[k]);
+    high = max(high, polygon[k]);
+  }
+  ivec4 box;
+  if (!pixels_of(low, high, box)) return;
+  int first = begin_record(density, uint(corner_count), box);
+  if (first < 0) return;
+  bool is_reversed = twice_polygon_area() < 0.0;
+  for (int k = 0; k < corner_count; ++k) large_corners[first + k] = polygon[is_reversed ? corner_count - 1 - k : k];
+}
+
+void list_quad(vec2 a, vec2 b, vec2 c, vec2 d, Density density) {
+  if (cross2(c - a, d - b) < 0.0) {
+    vec2 swapped = b;
+    b = d;
+    d = swapped;
+  }
+  ivec4 box;
+  if (!pixels_of(min(min(a, b), min(c, d)), max(max(a, b), max(c, d)), box)) return;
+  int first = begin_record(density, 4u, box);
+  if (first < 0) return;
+  large_corners[first] = a;
+  large_corners[first + 1] = b;
+  large_corners[first + 2] = c;
+  large_corners[first + 3] = d;
+}
+
+void list_point(vec2 at, float flux) {
+  ivec4 box;
+  if (!pixels_of(at, at, box)) return;
+  box = ivec4(ivec2(floor(at)), ivec2(floor(at)));
+  int first = begin_record(Density(vec2(0.0), flux, vec2(0.0)), 1u, box);
+  if (first >= 0) large_corners[first] = at;
+}
+
+void list_line(vec2 from, vec2 to, float flux) {
+  ivec4 box;
+  if (!pixels_of(min(from, to), max(from, to), box)) return;
+  int first = begin_record(Density(vec2(0.0), flux, vec2(0.0)), 2u, box);
+  if (first < 0) return;
+  large_corners[first] = from;
+  large_corners[first + 1] = to;
+}

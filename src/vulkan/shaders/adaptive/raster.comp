@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the polygons of a tile, one tile a workgroup. Sums are exact, so that the order of the lists changes no bit: those
+// of small polygons are integers; the values of others are split into multiples of a coarse and of a fine unit.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 16, local_size_y = 16) in;
+#include "common.glsl"
+#include "record.glsl"
+#include "../coverage.glsl"
+#include "../sums.glsl"
+
+#define SMALL_PX 12
+#define TILE_WORDS 1536u  // low and high words by pixel and channel
+
+shared uint tile_sums[TILE_WORDS];
+shared uint plane_sums[18];  // of polygons that cover the tile: value at the first pixel, slopes, by channel
+shared uint others[256];
+shared uint others_count;
+// Of polygons that are prepared.
+shared vec4 edges[256];
+shared uint edge_counts[32];  // 0: not prepared
+shared ivec4 boxes_of_polygons[32];
+shared vec3 gains[32], planes[32];
+float fixed_units;  // a unit of pixel value
+
+vec3 coarse_sum = vec3(0.0), fine_sum = vec3(0.0);
+float coarse_shift, fine_shift;  // 1.5 * 2^23 units: adding one rounds to a whole number of units
+
+void begin_sums() {
+  float peak = max(uintBitsToFloat(counters[COUNT_PEAK]), 1e-30);
+  float coarse_unit = exp2(ceil(log2(peak)) - 8.0);  // sums of up to 65536 peaks are exact
+  coarse_shift = coarse_unit * 12582912.0;
+  fine_shift = coarse_shift * 6.103515625e-5;  // 2^-14: sums of the rests of 2048 polygons are exact
+  fixed_units = exp2(36.0 - ceil(log2(peak)));
+}
+
+void add_to_plane(uint at, float value) {
+  uvec2 number = to_fixed(value);
+  uint before = atomicAdd(plane_sums[at], number.x);
+  uint high = number.y + (before > ~number.x ? 1u : 0u);
+  if (high != 0u) atomicAdd(plane_sums[at + 1u], high);
+}
+
+void add_to_tile(uint at, float value) {
+  uvec2 number = to_fixed(value);
+  uint before = atomicAdd(tile_sums[at], number.x);
+  uint high = number.y + (before > ~number.x ? 1u : 0u);
+  if (high != 0u) atomicAdd(tile_sums[at + 1u], high);
+}
+
+void add(float flux, vec3 gain) {
+  precise vec3 value = flux * gain;
+  precise vec3 coarse = (value + coarse_shift) - coarse_shift;
+  precise vec3 rest = value - coarse;
+  precise vec3 fine = (rest + fine_shift) - fine_shift;
+  coarse_sum += coarse;
+  fine_sum += fine;
+}
+
+// The part of a line that lies in a pixel.
+float part_in_pixel(vec2 from, vec2 to) {
+  vec2 by = to - from;
+  float first = 0.0, last = 1.0;
+  for (int k = 0; k < 2; ++k) {
+    if (by[k] == 0.0) {
+      if (from[k] < 0.0 || from[k] >= 1.0) return 0.0;
+      continue;
+    }
+    float a = -from[k] / by[k], b = (1.0 - from[k]) / by[k];
+    first = max(first, min(a, b));
+    last = min(last, max(a, b));
+  }
+  return max(last - first, 0.0);
+}
+
+// The part of a pixel that a polygon covers, exactly.
+float covered_part(uint first, uint count, vec2 pixel) {
+  float covered = 0.0;
+  vec2 before = large_corners[first + count - 1u] - pixel;
+  for (uint k = 0u; k < count; ++k) {
+    vec2 here = large_corners[first + k] - pixel;
+    covered += area_right_of(before, here);
+    before = here;
+  }
+  return max(-covered, 0.0);
+}
+
+// The polygon's value in a pixel.
+float value_at(uint polygon, ivec2 pixel) {
+  uint word = RECORD_WORDS * polygon;
+  uint first = large[word + 8u], count = large[word + 9u];
+  vec2 corner = vec2(pixel - ivec2(int(large[word + 10u]), int(large[word + 11u])));
+  float value = record_float(polygon, 0u);
+  if (count == 1u) return value;
+  if (count == 2u) return value * part_in_pixel(large_corners[first] - corner, large_corners[first + 1u] - corner);
+  float covered = covered_part(first, count, corner);
+  if (covered == 0.0) return 0.0;
+  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
+  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
+  return covered * (value + dot(gradient, corner + 0.5 - point));
+}
+
+vec3 gain_of(uint polygon) {
+  return vec3(record_float(polygon, 5u), record_float(polygon, 6u), record_float(polygon, 7u));
+}
+
+// Polygons of few pixels: an invocation draws one by itself, into sums of the tile in fixed point.
+void draw_small(uint polygon, ivec4 box, ivec2 tile_low) {
+  vec3 gain = gain_of(polygon) * fixed_units;
+  for (int y = box.y; y <= box.w; ++y) {
+    for (int x = box.x; x <= box.z; ++x) {
+      float value = value_at(polygon, ivec2(x, y));
+      if (value == 0.0) continue;
+      uint at = 6u * uint((y - tile_low.y) * TILE_SIDE + x - tile_low.x);
+      for (uint c = 0u; c < 3u; ++c) add_to_tile(at + 2u * c, value * gain[c]);
+    }
+  }
+}
+
+// Prepares polygons for drawing by pixel: 8 invocations a polygon, an edge each.
+void prepare(uint from, uint count) {
+  uint t = gl_LocalInvocationIndex, j = t / 8u, e = t % 8u;
+  if (from + j >= count) return;
+  uint polygon = others[from + j], word = RECORD_WORDS * polygon;
+  uint first = large[word + 8u], corners = large[word + 9u];
+  ivec2 tile_low = ivec2(gl_WorkGroupID.xy) * TILE_SIDE;
+  vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
+  bool is_convex = corners >= 3u && corners <= 8u;
+  if (is_convex && e < corners) {
+    vec2 a = large_corners[first + e] - origin, b = large_corners[first + (e + 1u == corners ? 0u : e + 1u)] - origin;
+    vec2 along = b - a;
+    // Of the middle of the tile's pixel (x, y): positive inside, beyond w in the whole pixel.
+    edges[t] = vec4(-along.y, along.x, along.x * (0.5 - a.y) - along.y * (0.5 - a.x), 0.5 * (abs(along.x) + abs(along.y)));
+  }
+  if (e != 0u) return;
+  edge_counts[j] = is_convex ? corners : 0u;
+  boxes_of_polygons[j] = box_of(polygon) - tile_low.xyxy;
+  gains[j] = gain_of(polygon);
+  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
+  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
+  planes[j] = vec3(gradient, record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point));
+}
+
+// The part of a pixel on the positive side of an edge that crosses it.
+float half_plane(vec2 slope, float at_middle) {
+  float longer = max(abs(slope.x), abs(slope.y)), shorter = min(abs(slope.x), abs(slope.y)), off = abs(at_middle);
+  float rest = 0.5 * (longer + shorter) - off;
+  float part = off <= 0.5 * (longer - shorter) ? 0.5 + off / longer : 1.0 - rest * rest / (2.0 * longer * shorter);
+  return at_middle >= 0.0 ? part : 1.0 - part;
+}
+
+// The value of a prepared polygon in a pixel of the tile.
+float prepared_value(uint j, uint polygon, ivec2 at, ivec2 pixel) {
+  ivec4 box = boxes_of_polygons[j];
+  if (at.x < box.x || at.y < box.y || at.x > box.z || at.y > box.w) return 0.0;
+  uint count = edge_counts[j];
+  if (count == 0u) return value_at(polygon, pixel);
+  vec2 place = vec2(at);
+  uint crossing_count = 0u;
+  vec3 crossing_edge;
+  for (uint e = 0u; e < count; ++e) {
+    vec4 edge = edges[8u * j + e];
+    float side = dot(edge.xy, place) + edge.z;
+    if (side <= -edge.w) return 0.0;
+    if (side < edge.w) {
+      ++crossing_count;
+      crossing_edge = vec3(edge.xy, side);
+    }
+  }
+  if (crossing_count > 1u) return value_at(polygon, pixel);
+  float covered = crossing_count == 0u ? 1.0 : half_plane(crossing_edge.xy, crossing_edge.z);
+  return covered * (dot(planes[j].xy, place) + planes[j].z);
+}
+
+// Whether a polygon covers the whole tile.
+bool covers_tile(uint polygon, vec2 origin) {
+  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = large[word + 9u];
+  if (count < 3u) return false;
+  const float half_tile = 0.5 * float(TILE_SIDE);
+  vec2 before = large_corners[first + count - 1u] - origin - half_tile;
+  for (uint k = 0u; k < count; ++k) {
+    vec2 here = large_corners[first + k] - origin - half_tile, along = here - before;
+    if (along.y * before.x - along.x * before.y < half_tile * (abs(along.x) + abs(along.y))) return false;
+    before = here;
+  }
+  return true;
+}
+
+// Adds a polygon that covers the tile to the tile's plane, which each pixel evaluates once.
+void draw_whole(uint polygon, vec2 origin) {
+  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
+  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
+  float value = record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point);
+  vec3 gain = gain_of(polygon) * fixed_units;
+  for (uint c = 0u; c < 3u; ++c) {
+    add_to_plane(6u * c, value * gain[c]);
+    add_to_plane(6u * c + 2u, gradient.x * gain[c]);
+    add_to_plane(6u * c + 4u, gradient.y * gain[c]);
+  }
+}
+
+float plane_at(uint channel, vec2 at) {
+  float value = from_fixed(plane_sums[6u * channel], plane_sums[6u * channel + 1u]);
+  float by_x = from_fixed(plane_sums[6u * channel + 2u], plane_sums[6u * channel + 3u]);
+  float by_y = from_fixed(plane_sums[6u * channel + 4u], plane_sums[6u * channel + 5u]);
+  return value + by_x * at.x + by_y * at.y;
+}
+
+// Draws the next polygons of the tile's list: first those of few pixels and of the whole tile, one an invocation, then
+// the others, one pixel an invocation.
+void draw_some(uint from, uint end, ivec2 pixel) {
+  ivec2 tile_low = ivec2(gl_WorkGroupID.xy) * TILE_SIDE;
+  if (gl_LocalInvocationIndex == 0u) others_count = 0u;
+  barrier();
+  uint k = from + gl_LocalInvocationIndex;
+  if (k < end) {
+    uint polygon = tile_lists[k];
+    ivec4 whole = box_of(polygon), box = ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1));
+    ivec2 extent = box.zw - box.xy + 1;
+    uint word = RECORD_WORDS * polygon;
+    vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
+    if (extent.x * extent.y <= SMALL_PX)
+      draw_small(polygon, box, tile_low);
+    else if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(polygon, origin))
+      draw_whole(polygon, origin);
+    else
+      others[atomicAdd(others_count, 1u)] = polygon;
+  }
+  barrier();
+  uint count = others_count;
+  for (uint chunk = 0u; chunk < count; chunk += 32u) {
+    prepare(chunk, count);
+    barrier();
+    for (uint j = 0u; j < min(32u, count - chunk); ++j) {
+      float value = prepared_value(j, others[chunk + j], ivec2(gl_LocalInvocationID.xy), pixel);
+      if (value != 0.0) add(value, gains[j]);
+    }
+    barrier();
+  }
+}
+
+void main() {
+  uint tile = gl_WorkGroupID.y * p.tiles_across + gl_WorkGroupID.x;
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  uint t = gl_LocalInvocationIndex;
+  for (uint k = t; k < TILE_WORDS; k += 256u) tile_sums[k] = 0u;
+  if (t < 18u) plane_sums[t] = 0u;
+  begin_sums();
+  uint first = tile_first[tile], end = min(first + tile_counts[2u * tile + 1u], p.list_capacity);
+  barrier();
+  for (uint from = first; from < end; from += 256u) draw_some(from, end, pixel);
+  if (pixel.x >= p.width || pixel.y >= p.height) return;
+  uint at = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
+  for (uint c = 0u; c < 3u; ++c)
+    picture[at + c] = (coarse_sum[c] + fine_sum[c]) +
+                      (from_fixed(tile_sums[6u * t + 2u * c], tile_sums[6u * t + 2u * c + 1u]) +
+                       plane_at(c, vec2(gl_LocalInvocationID.xy))) /
+                          fixed_units;
+}

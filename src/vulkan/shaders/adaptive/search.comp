@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// One level of the search for the pupils of all groups: render/pupils/window_search.cpp. A workgroup traces 16 x 16 rays,
+// one an invocation, of a box of 2 or 3 such blocks a side, and bounds the cells through which light may pass.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 16, local_size_y = 16) in;
+#define GEOMETRY_ONLY
+#include "common.glsl"
+#include "item_path.glsl"
+#include "near_stop.glsl"
+
+#define SCAN_REACH 0.75    // cells on each side of a hit
+#define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction
+
+shared float heights[256];  // relative height - 1, FAILED where a ray fails
+shared vec2 stops[MAX_CROSSINGS][256];
+shared uint bounds_found[8];  // as found[]
+
+void trace_corner(uint item, vec2 at, uint k) {
+  set_path(item);
+  vec4 ray = trace_ray(at.x, at.y);
+  heights[k] = failed(ray) ? FAILED : ray.w - 1.0;
+  for (uint c = 0u; c < crossings_of(item); ++c) stops[c][k] = stop_points[c];
+}
+
+bool near_stop_beside_failing(uvec4 v, uint c) {
+  vec2 distance = vec2(FAILED, -FAILED);
+  for (int k = 0; k < 4; ++k) {
+    if (heights[v[k]] >= 0.5 * FAILED) continue;
+    float here = length(stops[c][v[k]]) - 1.0;
+    distance = vec2(min(distance.x, here), max(distance.y, here));
+  }
+  return distance.x <= max(0.0, distance.y - distance.x);
+}
+
+// Light may pass where the stop is near and the relative height does not fall below its lowest corner by more than the
+// corners differ (open_cells.h). Until the last level heights do not count: around an opening smaller than a cell they are
+// alike at all corners, as distances from the stop are. Corners whose rays fail are ignored.
+bool may_transmit(uvec4 v, uint crossing_count) {
+  int good = 0;
+  vec2 height = vec2(FAILED, -FAILED);
+  for (int k = 0; k < 4; ++k) {
+    float here = heights[v[k]];
+    if (here >= 0.5 * FAILED) continue;
+    ++good;
+    height = vec2(min(height.x, here), max(height.y, here));
+  }
+  if (good == 0 || !(height.x <= max(0.0, height.y - height.x))) return false;
+  for (uint c = 0u; c < crossing_count; ++c) {
+    vec2 q[4];
+    for (int k = 0; k < 4; ++k) q[k] = stops[c][v[k]];
+    // Beside failing rays the others count by their distances.
+    if (good == 4 ? !near_stop(q) : !near_stop_beside_failing(v, c)) return false;
+  }
+  return true;
+}
+
+#define PASSES 0u
+#define MAY_PASS 4u
+
+// Reports light within bounds, in cells of the box.
+void report(uint kind, vec2 low, vec2 high, uint cells) {
+  uvec2 first = uvec2(clamp(floor(low), vec2(0.0), vec2(cells - 1u))), last = uvec2(clamp(ceil(high), vec2(1.0), vec2(cells)));
+  atomicMax(bounds_found[kind], cells - first.x);
+  atomicMax(bounds_found[kind + 1u], cells - first.y);
+  atomicMax(bounds_found[kind + 2u], last.x);
+  atomicMax(bounds_found[kind + 3u], last.y);
+}
+
+bool passes(uint k, uint crossing_count) {
+  bool open = heights[k] <= 0.0;
+  for (uint c = 0u; c < crossing_count; ++c) open = open && dot(stops[c][k], stops[c][k]) <= 1.0;
+  return open;
+}
+
+void search_block(uint item, vec4 box, uint cells, uint block) {
+  uint k = gl_LocalInvocationIndex, blocks_a_side = cells / COARSE_CELLS;
+  uvec2 place = COARSE_CELLS * uvec2(block % blocks_a_side, block / blocks_a_side) + gl_LocalInvocationID.xy;
+  trace_corner(item, box.xy + box.zw * vec2(place) / float(cells), k);
+  barrier();
+  if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return;
+  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+  uint crossing_count = crossings_of(item);
+  if (passes(v.x, crossing_count) || passes(v.y, crossing_count) || passes(v.z, crossing_count) ||
+      passes(v.w, crossing_count)) {
+    float around = p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
+    report(PASSES, vec2(place) - around, vec2(place) + 1.0 + around, cells);
+  } else if (may_transmit(v, crossing_count)) {
+    report(MAY_PASS, vec2(place), vec2(place) + 1.0, cells);
+  }
+}
+
+// Small pupils among failing rays lie where the plane of the light and the axis meets the entrance plane: a line that is
+// searched finely, as meridian_scan.cpp does.
+void scan_meridian(uint item, vec4 box, uint cells, uint part) {
+  uint k = gl_LocalInvocationIndex;
+  path_item = item;
+  vec2 along = vec2(start_real(START_STEP_X), start_real(START_STEP_Y)), first = vec2(start_real(START_X), start_real(START_Y));
+  float reach = length(max(abs(first), abs(first + box.zw)));
+  float step_mm = 2.0 * reach / float(255u * SCANS);
+  vec2 at = along * (float(255u * part + k) * step_mm - reach) - first;
+  bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, box.zw));
+  trace_corner(item, at, k);
+  if (!inside) heights[k] = FAILED;
+  barrier();
+  uint next = min(k + 1u, 255u);
+  if (heights[k] >= 0.5 * FAILED) return;
+  if (heights[next] >= 0.5 * FAILED) next = k;
+  if (min(heights[k], heights[next]) > 0.0) return;
+  for (uint c = 0u; c < crossings_of(item); ++c) {
+    vec2 a = stops[c][k], b = stops[c][next];
+    if (distance_to_edge(a, b) > 1.0 + 0.5 * length(b - a)) return;
+  }
+  vec2 cell = at / box.zw * float(cells);
+  report(PASSES, cell - SCAN_REACH, cell + SCAN_REACH, cells);
+}
+
+void main() {
+  uint cells = cells_of_level(p.level), blocks = search_blocks(p.level);
+  uint group = linear_group() / blocks, block = linear_group() % blocks;
+  if (group >= p.group_count) return;
+  uint item = group_word(group, 2u), at_level = group * LEVELS + p.level, k = gl_LocalInvocationIndex;
+  vec4 box = box_of_level(group, p.level);
+  if (block == 0u && k == 0u) boxes[at_level] = box;
+  if (!(box.z > 0.0)) return;
+  if (p.level > 0u) {
+    vec4 before = boxes[at_level - 1u];
+    if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
+      if (block == 0u && k < 4u) found[8u * at_level + k] = cells;
+      return;
+    }
+  }
+  if (k < 8u) bounds_found[k] = 0u;
+  uint grid_blocks = cells * cells / (COARSE_CELLS * COARSE_CELLS);
+  if (block < grid_blocks)
+    search_block(item, box, cells, block);
+  else
+    scan_meridian(item, box, cells, block - grid_blocks);
+  barrier();
+  if (k < 8u && bounds_found[k] > 0u) atomicMax(found[8u * at_level + k], bounds_found[k]);
+}

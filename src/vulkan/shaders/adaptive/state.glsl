@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state of a cell whose size is that of the ghost's features: unlike state_of(), it does not take a cell for closed
+// because all corners lie beyond a curved edge.
+#include "near_stop.glsl"
+
+bool may_be_open(float low, float high) { return low <= max(0.0, high - low); }
+
+int cell_state(uvec4 v, uint crossing_count) {
+  bool open = true, any = false, any_failed = false;
+  vec2 height = vec2(FAILED, -FAILED);
+  for (int k = 0; k < 4; ++k) {
+    open = open && passes(v[k]);
+    if (failed(rays[v[k]])) {
+      any_failed = true;
+      continue;
+    }
+    any = true;
+    height = vec2(min(height.x, rays[v[k]].w - 1.0), max(height.y, rays[v[k]].w - 1.0));
+  }
+  if (open) return STATE_OPEN;
+  if (!any || !may_be_open(height.x, height.y)) return STATE_CLOSED;
+  for (uint c = 0u; c < crossing_count && !any_failed; ++c) {
+    vec2 q[4];
+    for (int k = 0; k < 4; ++k) q[k] = crossing(v[k], c);
+    if (!near_stop(q)) return STATE_CLOSED;
+  }
+  return STATE_CUT;
+}
+
+// Sets what a cell's polygons have in common.
+void set_cell(uvec4 v) {
+  vec2 near = failed(rays[v.x]) ? rays[v.z].xy : rays[v.x].xy;
+  base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
+  gain = state_gain(item);
+  vec4 box = final_box(group_of(item));
+  float cells = float(side - 1u);
+  triangle_weight = 0.5 * box.z * box.w / (cells * cells) * item_irradiance(item);
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cell of a grid of rays: render/bundle/cell_raster.cpp under the same names. Included after polygon.glsl.
+#define SHADED_CELL_PX 4.0
+#define SLIVER 1e-7
+#define STATE_CLOSED 0
+#define STATE_CUT 1
+#define STATE_OPEN 2
+
+struct Density {
+  vec2 point;  // relative to base
+  float value;
+  vec2 gradient;
+};
+
+ivec2 base;  // a pixel near the cell: coordinates relative to it keep their digits
+
+vec2 pixel_of(uint ray) { return rays[ray].xy - vec2(base); }
+
+int state_of(uvec4 v, uint crossing_count) {
+  bool open = true, high = true;
+  for (int k = 0; k < 4; ++k) {
+    open = open && passes(v[k]);
+    high = high && rays[v[k]].w > 1.0;
+  }
+  if (open) return STATE_OPEN;
+  if (high) return STATE_CLOSED;
+  for (uint c = 0u; c < crossing_count; ++c) {
+    bool outside = true;
+    for (int k = 0; k < 4; ++k) outside = outside && !(iris_distance(crossing(v[k], c)) <= 0.0);
+    if (outside) return STATE_CLOSED;
+  }
+  return STATE_CUT;
+}
+
+bool outside_frame(uvec4 v) {
+  vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
+  vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
+  return !(low.x < float(p.width) && low.y < float(p.height) && high.x >= 0.0 && high.y >= 0.0);
+}
+
+bool in_one_pixel() {
+  for (int k = 1; k < corner_count; ++k)
+    if (floor(polygon[k]) != floor(polygon[0])) return false;
+  return true;
+}
+
+void farthest_corners(out vec2 from, out vec2 to) {
+  from = polygon[0];
+  to = polygon[0];
+  float longest = 0.0;
+  for (int i = 0; i < corner_count; ++i) {
+    for (int j = 0; j < i; ++j) {
+      vec2 between = polygon[i] - polygon[j];
+      if (dot(between, between) > longest) {
+        longest = dot(between, between);
+        from = polygon[j];
+        to = polygon[i];
+      }
+    }
+  }
+}
+
+bool is_convex(vec2 a, vec2 b, vec2 c, vec2 d, float orientation) {
+  return cross2(b - a, c - a) * orientation > 0.0 && cross2(c - b, d - b) * orientation > 0.0 &&
+         cross2(d - c, a - c) * orientation > 0.0 && cross2(a - d, b - d) * orientation > 0.0;
+}
+
+// The plane whose differences along both diagonals are those of the vertices' irradiances, relative to their mean.
+vec2 gradient_of(uvec4 v, vec4 e) {
+  vec2 d = rays[v.z].xy - rays[v.x].xy, f = rays[v.w].xy - rays[v.y].xy;
+  float mean = 0.25 * (e.x + e.y + e.z + e.w);
+  float along_d = (e.z - e.x) / mean, along_f = (e.w - e.y) / mean;
+  return vec2(along_d * f.y - along_f * d.y, along_f * d.x - along_d * f.x) / cross2(d, f);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames that the tests draw on a device and on the CPU.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contrejour/lens.h"
+#include "device.h"
+#include "render/session/render_frame.h"
+
+namespace contrejour::test {
+
+inline LensState lens_of(const std::string& name, int blades = 0, double f_number = 0.0) {
+  const auto prescription = find_lens(name);
+  REQUIRE(prescription.has_value());
+  LensSettings settings;
+  settings.iris.blades = blades;
+  if (f_number > 0.0) settings.f_number = f_number;
+  const auto lens = configure_lens(*prescription, settings);
+  REQUIRE(lens.has_value());
+  return *lens;
+}
+
+inline FrameSettings settings_of(const LensState& lens, int width = 80, int height = 45) {
+  FrameSettings settings;
+  settings.frame = frame_on_sensor(lens, width, height);
+  settings.wavelengths = 2;
+  return settings;
+}
+
+struct Agreement {
+  double psnr_db = 0, flux_error = 0;  // of the channel that differs most
+};
+
+inline Agreement agreement_of(const Image& a, const Image& b) {
+  double squares = 0, peak = 0;
+  std::array<double, 3> sum_a{}, sum_b{};
+  for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+    squares += std::pow(static_cast<double>(a.pixels[k]) - b.pixels[k], 2);
+    peak = std::max<double>(peak, a.pixels[k]);
+    sum_a[k % 3] += a.pixels[k];
+    sum_b[k % 3] += b.pixels[k];
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(a.pixels.size()));
+  Agreement agreement{rms > 0.0 ? 20.0 * std::log10(peak / rms) : 200.0, 0.0};
+  for (std::size_t c = 0; c < 3; ++c)
+    agreement.flux_error = std::max(agreement.flux_error, std::abs(sum_b[c] / sum_a[c] - 1.0));
+  return agreement;
+}
+
+inline Flare frame_by(const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
+                      const FrameSettings& settings, RenderCache& cache) {
+  auto flare = render_frame(method, {lens, lights, settings, cache}, {});
+  REQUIRE_MESSAGE(flare.has_value(), (flare ? std::string() : flare.error().message));
+  return std::move(*flare);
+}
+
+// A cache with a device; its device is null where there is none.
+struct OnDevice {
+  RenderCache cache;
+  KeptDevice& kept = *cache.section<KeptDevice>({});
+  explicit OnDevice(DeviceOptions options = {}) {
+    kept.device = open_device(std::move(options));
+    kept.is_required = true;
+  }
+};
+
+inline const std::vector<Light> kTwoLights{{.direction = direction_from_angles(0.11, 0.06)},
+                                           {.direction = direction_from_angles(-0.05, 0.13), .value = {4.0, 2.0, 1.0}}};
+
+}  // namespace contrejour::test
