@@ -15,6 +15,7 @@ void add_bench(CLI::App& app, Action& action) {
   add_bench_lenses(*bench, action);
   add_bench_hullin(*bench, action);
   add_bench_flicker(*bench, action);
+  add_bench_device(*bench, action);
 }
 
 }  // namespace contrejour::cli
