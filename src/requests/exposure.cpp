@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -35,8 +36,8 @@ Image scaled(Image image, double factor) {
 class Exposure {
  public:
   Exposure(const DrawAtTimes& draw, const ExposureOptions& options, const Context& context)
-      : draw_(draw), options_(options), context_(context) {
-    context_.progress = {};  // how much there is to do is not known
+      : draw_(draw), options_(options), context_(context), progress_(context.progress) {
+    context_.progress = {};
   }
 
   Result<ExposedFlare> run() {
@@ -57,7 +58,18 @@ class Exposure {
     if (context_.cancelled()) return interrupted();
     ++drawn_;
     add_statistics(statistics_, flare->statistics);
+    report_progress();
     return flare;
+  }
+
+  // How often the flare will be drawn is estimated from the error so far, which falls at least as edges let it, with
+  // the number of intervals.
+  void report_progress() {
+    constexpr double kAtLeast = 3.0;
+    if (!progress_) return;
+    const double expected = std::clamp(error_at_ * error_ / options_.error, kAtLeast, options_.max_intervals + 1.0);
+    done_ = std::max(done_, std::min(1.0, drawn_ / std::max(expected, drawn_ + 1.0)));
+    progress_(done_);
   }
 
   // The lights on the whole of their way, drawn at once, if the change of the parameters meanwhile does not show.
@@ -86,6 +98,7 @@ class Exposure {
       const auto change = add_middles(*sum, intervals);
       if (!change) return tl::unexpected(change.error());
       error_ = error_after(*change, std::exchange(before, *change));
+      error_at_ = drawn_;
       is_done = error_ <= options_.error;
     }
     scale(*sum, 1.0 / intervals);
@@ -104,6 +117,7 @@ class Exposure {
     const auto change = difference(first->image, last->image);
     if (!change) return tl::unexpected(change.error());
     error_ = kErrorOfTwo * *change;
+    error_at_ = drawn_;
     return sum;
   }
 
@@ -129,6 +143,7 @@ class Exposure {
 
   Result<ExposedFlare> finished(Result<LayeredFlare> flare) {
     if (!flare) return tl::unexpected(flare.error());
+    if (progress_) progress_(1.0);
     flare->statistics = statistics_;
     return ExposedFlare{std::move(*flare), drawn_, error_};
   }
@@ -138,7 +153,9 @@ class Exposure {
   Context context_;
   RenderStatistics statistics_;
   int drawn_ = 0;
-  double error_ = 0.0;
+  double error_ = 0.0, error_at_ = 0.0;  // the estimate, and how often the flare was drawn for it
+  std::function<void(double)> progress_;
+  double done_ = 0.0;
 };
 
 }  // namespace

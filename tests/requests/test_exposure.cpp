@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -140,6 +141,19 @@ TEST_CASE("layers are averaged in rectangles that grow, and sum to the flare") {
   }
   CHECK(error_of(sum, exposed->flare.image) < 1e-6);
   CHECK(exposed->flare.statistics.rays == 10U * static_cast<unsigned>(exposed->drawn));
+}
+
+TEST_CASE("progress rises and ends at 1") {
+  for (const double error : {0.05, 0.003}) {
+    std::vector<double> reported;
+    const Context context{.progress = [&](double done) { reported.push_back(done); }};
+    const auto exposed =
+        expose(moving([](double t) { return bar(20 + 20 * t, 60 + 20 * t); }), {.error = error}, context);
+    REQUIRE(exposed);
+    CHECK(reported.size() == static_cast<std::size_t>(exposed->drawn) + 1);
+    CHECK(std::ranges::is_sorted(reported));
+    CHECK(reported.back() == 1.0);
+  }
 }
 
 TEST_CASE("drawing stops at the limit, at an error and where it is cancelled") {
