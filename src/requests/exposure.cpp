@@ -107,9 +107,9 @@ class Exposure {
 
   // Half of the flare at the opening and at the closing, and the error of this as the mean.
   Result<LayeredFlare> ends() {
-    const auto first = draw({0.0, 0.0, 0.0});
+    auto first = draw({0.0, 0.0, 0.0});
     if (!first) return first;
-    const auto last = draw({1.0, 1.0, 1.0});
+    auto last = draw({1.0, 1.0, 1.0});
     if (!last) return last;
     LayeredFlare sum;
     add_weighted(sum, *first, 0.5);
