@@ -21,3 +21,10 @@ endif()
 if(CONTREJOUR_TESTS)
   find_package(doctest REQUIRED)
 endif()
+
+# LEMON's network simplex is a header, too; the library itself is not linked.
+find_path(LEMON_INCLUDE_DIR lemon/network_simplex.h)
+if(NOT LEMON_INCLUDE_DIR)
+  message(FATAL_ERROR "LEMON is missing: install liblemon-dev, or set LEMON_INCLUDE_DIR to the folder that has "
+                      "lemon/network_simplex.h")
+endif()

@@ -151,6 +151,7 @@ PUBLIC = {
     "expert/settings.h": "settings",
     "expert/preview_exposure.h": "settings",
     "expert/requests.h": "requests",
+    "expert/exposure.h": "requests",
     "expert/source_renderer.h": "requests",
     "apply.h": "compositing",
     "expert/apply_files.h": "compositing",

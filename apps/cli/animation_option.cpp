@@ -7,6 +7,8 @@
 namespace contrejour::cli {
 namespace {
 
+constexpr int kRecordedTimes = 9;  // as many as the positions of a light's path
+
 // A light without a name has its number as one.
 std::string name_of_layer(const std::string& name) {
   const bool is_number = std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
@@ -36,10 +38,52 @@ Result<FrameValues> FrameValues::create(const std::string& file, params::Values 
 
 params::Values FrameValues::at(int frame) const {
   if (!animation_) return whole_;
-  params::Values values = command_line_.over(parameters_at(*animation_, frame)).over(whole_);
-  const Shutter shutter{values.number("shutter-angle"), *values.text("shutter-offset") == "centre"};
-  add_lights_at(*animation_, frame, values, shutter);
+  params::Values values = without_lights(frame, frame);
+  add_lights_at(*animation_, frame, values, shutter_of(frame));
   return values;
+}
+
+params::Values FrameValues::during(int frame, const ExposureTimes& times) const {
+  if (!animation_) return whole_;
+  const Shutter shutter = shutter_of(frame);
+  params::Values values = without_lights(frame, time_of_exposure(frame, shutter, times.parameters));
+  add_lights_at(*animation_, frame, values, shutter, {times.lights_from, times.lights_to});
+  return values;
+}
+
+bool FrameValues::change_during(int frame) const { return !exposure_text(frame).empty(); }
+
+bool FrameValues::do_lights_move(int frame) const {
+  return animation_ && contrejour::do_lights_move(*animation_, frame, shutter_of(frame));
+}
+
+std::string FrameValues::exposure_text(int frame) const {
+  const Shutter shutter = shutter_of(frame);
+  if (!animation_ || !(shutter.angle_deg > 0.0)) return {};
+  std::vector<params::Values> all;
+  for (int k = 0; k < kRecordedTimes; ++k)
+    all.push_back(without_lights(frame, time_of_exposure(frame, shutter, k / (kRecordedTimes - 1.0))));
+  std::string text;
+  for (const auto& [name, keys] : animation_->parameters) {
+    const auto own = [&](const params::Values& values) { return values.text(name).value_or(""); };
+    if (std::ranges::all_of(all, [&](const params::Values& values) { return own(values) == own(all.front()); }))
+      continue;
+    text += "during the exposure: " + name;
+    for (const params::Values& values : all) text += " " + own(values);
+    text += "\n";
+  }
+  return text;
+}
+
+// The shutter is that of the frame's time.
+Shutter FrameValues::shutter_of(int frame) const {
+  if (!animation_) return {};
+  const params::Values values = without_lights(frame, frame);
+  return {values.number("shutter-angle"), *values.text("shutter-offset") == "centre"};
+}
+
+params::Values FrameValues::without_lights(int frame, double time) const {
+  return command_line_.over(parameters_during(*animation_, frame, time)).over(whole_);
 }
 
 params::Values FrameValues::of_still() const { return at(still_frame()); }

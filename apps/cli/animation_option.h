@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "contrejour/expert/animation.h"
+#include "contrejour/expert/exposure.h"
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/result.h"
 
@@ -25,6 +26,13 @@ class FrameValues {
                                                   params::Values whole);
 
   [[nodiscard]] params::Values at(int frame) const;
+  // The values at a time while the frame's shutter is open, with its lights at their times.
+  [[nodiscard]] params::Values during(int frame, const ExposureTimes& times) const;
+  // Whether values other than those of lights change while the frame's shutter is open.
+  [[nodiscard]] bool change_during(int frame) const;
+  [[nodiscard]] bool do_lights_move(int frame) const;  // while its shutter is open
+  // The values that change, at several times of the exposure, for a frame's record; empty where none changes.
+  [[nodiscard]] std::string exposure_text(int frame) const;
   // For a picture without a number: the values of the first frame that has a key.
   [[nodiscard]] params::Values of_still() const;
   // Whether the file has lights, on or off; then there is none by default.
@@ -39,6 +47,9 @@ class FrameValues {
 
  private:
   FrameValues() = default;
+
+  [[nodiscard]] Shutter shutter_of(int frame) const;
+  [[nodiscard]] params::Values without_lights(int frame, double time) const;
 
   std::optional<Animation> animation_;
   params::Values command_line_, whole_;

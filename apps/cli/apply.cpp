@@ -12,12 +12,14 @@
 #include "cli/apply_sequence.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/frame_lens.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/preset_choice.h"
 #include "cli/sequence_options.h"
 #include "cli/source_choice.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {
@@ -41,12 +43,25 @@ constexpr const char* kApplyExamples =
     "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml\n"
     "  contrejour apply heliar plate.exr -o out.exr --flare-only flare.exr --layers light";
 
-Result<int> apply_to_still(const ApplyOptions& options) {
-  const auto source = open_source(options.lens, options.values, MeasuredUse::Photograph);
-  if (!source) return tl::unexpected(source.error());
-  auto planned = read_photograph(options, std::make_shared<const LensState>(geometry_of(*source)));
+Result<PlannedPhotograph> plan_still(const ApplyOptions& options, const FrameValues& values, const FrameLens& lens) {
+  const auto state = lens.at(options.values);
+  if (!state) return tl::unexpected(state.error());
+  auto planned = read_photograph(options, *state);
+  if (!planned) return planned;
+  planned->exposure = FrameExposure::create(values, lens, values.still_frame());
+  LayerChoice& layers = planned->options.layers;
+  if (!planned->exposure || !chooses_ghosts(layers)) return planned;
+  const FrameSettings settings = params::frame_settings(options.values, planned->plan.grid.frame, planned->plan.space);
+  auto ok = choose_ghosts(layers, **state, planned->plan.lights, options.values, settings);
+  return ok ? std::move(planned) : tl::unexpected(ok.error());
+}
+
+Result<int> apply_to_still(const ApplyOptions& options, const FrameValues& values) {
+  const auto lens = FrameLens::create(options.lens, values, values.still_frame(), MeasuredUse::Photograph);
+  if (!lens) return tl::unexpected(lens.error());
+  auto planned = plan_still(options, values, *lens);
   if (!planned) return tl::unexpected(planned.error());
-  auto renderer = open_renderer(options.values, *source);
+  auto renderer = open_renderer(options.values, lens->first_source());
   if (!renderer) return tl::unexpected(renderer.error());
   auto flared = [&] {
     const LongTask task("rendering", options.values.integer("threads"));
@@ -79,7 +94,7 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
   options.values = values->of_still();
   options.layers.light_names = values->light_names(values->still_frame());
   options.layers.off_names = values->off_names(values->still_frame());
-  return apply_to_still(options);
+  return apply_to_still(options, *values);
 }
 
 // The error if only one of LENS and IN is given.

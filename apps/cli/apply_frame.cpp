@@ -32,7 +32,7 @@ Result<void> write_preview(const ApplyOptions& options, OutputFile& file, const 
 }
 
 Result<void> write_result(const PlannedPhotograph& planned, const Context& context) {
-  const auto& [options, lens, outputs, files, picture, plan, source] = planned;
+  const auto& [options, lens, outputs, files, picture, plan, source, exposure] = planned;
   const std::string ending = lower_extension(options.output);
   const bool is_usual =
       source == nullptr && options.colour.output_space.empty() && (ending == ".exr" || ending == ".png");
@@ -41,14 +41,41 @@ Result<void> write_result(const PlannedPhotograph& planned, const Context& conte
                              : contrejour::write_photograph(*files.output, picture, options.values, context);
 }
 
-Result<FlaredPhotograph> render_in_layers(PlannedPhotograph&& planned, SourceRenderer& renderer,
-                                          const Context& context) {
-  FlarePlan& plan = planned.plan;
-  const auto options = layer_options(planned.options.layers, plan.lights.size() - plan.given_light_count);
-  if (!options) return tl::unexpected(options.error());
-  auto layered = render_flare_layers(plan, planned.picture.rgb, planned.options.values, renderer, *options, context);
-  if (!layered) return tl::unexpected(layered.error());
-  return FlaredPhotograph{std::move(planned), std::move(layered->flare), std::move(layered->layers)};
+// The flare of a plan, with layers where the options ask for them.
+Result<PictureLayers> draw_plan(FlarePlan& plan, const PlannedPhotograph& planned, const params::Values& values,
+                                SourceRenderer& renderer, const Context& context) {
+  const Image& rgb = planned.picture.rgb;
+  if (planned.options.layers.on()) {
+    const auto options = layer_options(planned.options.layers, plan.lights.size() - plan.given_light_count);
+    if (!options) return tl::unexpected(options.error());
+    return render_flare_layers(plan, rgb, values, renderer, *options, context);
+  }
+  auto flare = render_flare(plan, rgb, values, renderer, context);
+  if (!flare) return tl::unexpected(flare.error());
+  return PictureLayers{std::move(*flare), {}};
+}
+
+// The mean over the time for which the shutter is open. Lights are found anew at each time, because the same place of
+// the picture is another direction when the focal length changes.
+Result<FlaredPhotograph> render_exposure(PlannedPhotograph&& planned, SourceRenderer& renderer,
+                                         const Context& context) {
+  const double error =
+      params::frame_settings(planned.options.values, planned.plan.grid.frame, planned.plan.space).area_error;
+  auto exposed = planned.exposure->expose(
+      [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
+        auto plan = plan_flare(planned.picture, *moment.lens, moment.values);
+        if (!plan) return tl::unexpected(plan.error());
+        auto drawn = draw_plan(*plan, planned, moment.values, renderer, within);
+        if (!drawn) return tl::unexpected(drawn.error());
+        return LayeredFlare{std::move(drawn->flare.image), std::move(drawn->layers),
+                            std::move(drawn->flare.statistics)};
+      },
+      renderer, error, context);
+  if (!exposed) return tl::unexpected(exposed.error());
+  LayeredFlare& flare = exposed->flare;
+  PictureFlare whole{std::move(flare.image), std::move(flare.statistics), {}};
+  whole.visibility = visibility_of(planned.picture.rgb, whole.image, planned.plan.found, planned.plan.space);
+  return FlaredPhotograph{std::move(planned), std::move(whole), std::move(flare.layers), exposed->drawn};
 }
 
 Result<void> write_flare(const FlaredPhotograph& flared, const Context& context) {
@@ -83,15 +110,15 @@ Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shar
 
 Result<FlaredPhotograph> render_photograph(PlannedPhotograph&& planned, SourceRenderer& renderer,
                                            const Context& context) {
-  if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
-  auto flare = render_flare(planned.plan, planned.picture.rgb, planned.options.values, renderer, context);
-  if (!flare) return tl::unexpected(flare.error());
-  return FlaredPhotograph{std::move(planned), std::move(*flare)};
+  if (planned.exposure) return render_exposure(std::move(planned), renderer, context);
+  auto drawn = draw_plan(planned.plan, planned, planned.options.values, renderer, context);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return FlaredPhotograph{std::move(planned), std::move(drawn->flare), std::move(drawn->layers)};
 }
 
 // The detected lights are drawn over the photograph without flare, so they are written before the flare is added.
 Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) {
-  auto& [options, lens, outputs, files, picture, plan, source] = flared.planned;
+  auto& [options, lens, outputs, files, picture, plan, source, exposure] = flared.planned;
   const Image& flare = flared.flare.image;
   Result<void> ok;
   if (files.detected) ok = write_detected(*files.detected, picture, plan, context);
@@ -105,9 +132,10 @@ Result<void> write_photograph(FlaredPhotograph& flared, const Context& context) 
 }
 
 Json frame_json(const FlaredPhotograph& flared) {
-  const auto& [options, lens, outputs, files, picture, plan, source] = flared.planned;
+  const auto& [options, lens, outputs, files, picture, plan, source, exposure] = flared.planned;
   Json json = {{"lens", lens->name}, {"input", options.input}, {"output", options.output}};
   json.update(report_json(plan));
+  json["drawn"] = flared.drawn;
   json["flare"] = visibility_json(flared.flare.visibility);
   json["statistics"] = plan.lights.empty() ? Json() : stats_json(flared.flare.statistics);
   return json;

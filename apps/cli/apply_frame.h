@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "cli/frame_exposure.h"
 #include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
@@ -43,12 +44,14 @@ struct PlannedPhotograph {
   Picture picture;
   FlarePlan plan;
   std::shared_ptr<const PlateSource> source = nullptr;  // of the picture, for writing it back
+  std::shared_ptr<const FrameExposure> exposure = nullptr;  // if more than lights changes while the shutter is open
 };
 
 struct FlaredPhotograph {
   PlannedPhotograph planned;
   PictureFlare flare;
   std::vector<FlareLayer> layers = {};
+  int drawn = 1;  // how often, for motion blur
 };
 
 // Opens all outputs, so that a long rendering does not fail at its end, reads the photograph and plans its flare.

@@ -29,14 +29,14 @@ Result<ApplyOptions> options_of_frame(const ApplyOptions& options, const FrameVa
 }
 
 // The files of a frame, for its record.
-FrameFiles files_of(const ApplyOptions& own, bool is_missing) {
+FrameFiles files_of(const ApplyOptions& own, const std::string& exposure, bool is_missing) {
   SettingsRecord settings = settings_record("apply", own.lens, own.values);
   settings.text += fmt::format("layer = {}\npart = {}\n", own.read.layer, own.read.part);
   const PlateColour& colour = own.colour;
   if (!colour.input_space.empty() || !colour.output_space.empty())
     settings.text +=
         fmt::format("spaces = {} -> {} of {}\n", colour.input_space, colour.output_space, colour_config(colour));
-  settings.text += layers_text(own.layers);
+  settings.text += exposure + layers_text(own.layers);
   return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 
@@ -54,7 +54,9 @@ class FrameReader {
     auto plate = sequence_.missing.contains(frame) ? black_picture() : read_plate(own->input, own->read, own->colour);
     if (!plate) return tl::unexpected(plate.error());
     if (auto fits = check_size(plate->picture, frame, own->input); !fits) return tl::unexpected(fits.error());
-    return plan_photograph(*own, std::move(*lens), std::move(*plate));
+    auto planned = plan_photograph(*own, std::move(*lens), std::move(*plate));
+    if (planned) planned->exposure = FrameExposure::create(values_, lens_, frame);
+    return planned;
   }
 
  private:
@@ -130,7 +132,7 @@ Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& valu
   if (sequence_options.resume)
     leave_out_done(frames, [&](int frame) {
       const auto own = options_of_frame(options, values, frame);
-      return own && is_frame_done(files_of(*own, is_missing(frame)));
+      return own && is_frame_done(files_of(*own, values.exposure_text(frame), is_missing(frame)));
     });
   if (sequence_options.list_frames) return print_frames(frames);
   auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
@@ -148,7 +150,7 @@ Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& valu
     if (auto ok = write_photograph(flared, without_progress(task.context())); !ok) return ok;
     report.warn(flared.planned.plan.warnings);
     report.add(frame, flared);
-    return write_frame_record(files_of(flared.planned.options, is_missing(frame)));
+    return write_frame_record(files_of(flared.planned.options, values.exposure_text(frame), is_missing(frame)));
   };
   const auto failures = run_frames(
       frames, [&](int frame) { return reader.read(frame); }, render, write, {sequence_options.keep_going},

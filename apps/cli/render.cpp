@@ -7,6 +7,7 @@
 #include "cli/animation_option.h"
 #include "cli/command.h"
 #include "cli/console.h"
+#include "cli/frame_lens.h"
 #include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
@@ -34,13 +35,27 @@ constexpr const char* kRenderExamples =
     "  contrejour render heliar -o flare.####.exr --frames 1-48 --lights lights.toml\n"
     "  contrejour render heliar -o flare.exr --starburst --layers part";
 
-Result<int> render_still(const RenderOptions& options) {
-  const auto source = open_source(options.lens, options.values, MeasuredUse::Lights);
-  if (!source) return tl::unexpected(source.error());
-  auto planned = plan_frame(options, *source, std::make_shared<const LensState>(geometry_of(*source)));
+Result<PlannedFrame> plan_still(const RenderOptions& options, const FrameValues& values, const FrameLens& lens) {
+  const auto state = lens.at(options.values);
+  if (!state) return tl::unexpected(state.error());
+  auto planned = plan_frame(options, lens.first_source(), *state);
+  if (!planned) return planned;
+  planned->exposure = FrameExposure::create(values, lens, values.still_frame());
+  LayerChoice& layers = planned->options.layers;
+  if (planned->exposure && chooses_ghosts(layers))  // the same at all times of the exposure
+    if (auto ok = choose_ghosts(layers, **state, planned->request.lights, options.values, planned->request.settings);
+        !ok)
+      return tl::unexpected(ok.error());
+  return planned;
+}
+
+Result<int> render_still(const RenderOptions& options, const FrameValues& values) {
+  const auto lens = FrameLens::create(options.lens, values, values.still_frame(), MeasuredUse::Lights);
+  if (!lens) return tl::unexpected(lens.error());
+  auto planned = plan_still(options, values, *lens);
   if (!planned) return tl::unexpected(planned.error());
   print_warnings(planned->request.warnings);
-  auto renderer = open_renderer(options.values, *source);
+  auto renderer = open_renderer(options.values, lens->first_source());
   if (!renderer) return tl::unexpected(renderer.error());
   auto rendered = [&] {
     const LongTask task("rendering", options.values.integer("threads"));
@@ -74,7 +89,7 @@ Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
   options.values = values->of_still();
   options.layers.light_names = values->light_names(values->still_frame());
   options.layers.off_names = values->off_names(values->still_frame());
-  return render_still(options);
+  return render_still(options, *values);
 }
 
 }  // namespace

@@ -25,15 +25,16 @@ Result<RenderFiles> open_render_files(const RenderOptions& options, Outputs& out
   return files;
 }
 
-Result<PictureRequest> request_of(const RenderOptions& options, const FlareSource& source, const LensState& lens) {
-  const auto without = options.needs_light ? WithoutLights::DefaultLight : WithoutLights::Dark;
+Result<PictureRequest> request_of(const params::Values& values, bool needs_light, const FlareSource& source,
+                                  const LensState& lens) {
+  const auto without = needs_light ? WithoutLights::DefaultLight : WithoutLights::Dark;
   if (const auto* measured = std::get_if<MeasuredFlare>(&source))
-    return picture_request(options.values, *measured, {}, without);
-  return picture_request(options.values, lens, {}, without);
+    return picture_request(values, *measured, {}, without);
+  return picture_request(values, lens, {}, without);
 }
 
 Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& preview, const Context& context) {
-  const auto& [planned, flare, layers] = rendered;
+  const auto& [planned, flare, layers, drawn] = rendered;
   const std::string ending = lower_extension(planned.options.output);
   const bool is_linear = planned.options.colour.output_space.empty();
   if (ending == ".png" && is_linear) return write_preview_png(*planned.files.output, flare.image, preview, context);
@@ -46,13 +47,34 @@ Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& p
   return write_picture(*planned.files.output, picture, context);
 }
 
-Result<RenderedFrame> render_in_layers(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
-  const auto options = layer_options(planned.options.layers);
-  if (!options) return tl::unexpected(options.error());
-  auto flare = render_picture_layers(planned.request, renderer, *options, context);
+// The flare of a request, with layers where the options ask for them.
+Result<LayeredFlare> draw_request(const PictureRequest& request, const LayerChoice& layers, SourceRenderer& renderer,
+                                  const Context& context) {
+  if (layers.on()) {
+    const auto options = layer_options(layers);
+    if (!options) return tl::unexpected(options.error());
+    return render_picture_layers(request, renderer, *options, context);
+  }
+  auto flare = render_picture(request, renderer, context);
   if (!flare) return tl::unexpected(flare.error());
-  Flare whole{std::move(flare->image), std::move(flare->statistics)};
-  return RenderedFrame{std::move(planned), std::move(whole), std::move(flare->layers)};
+  return LayeredFlare{std::move(flare->image), {}, std::move(flare->statistics)};
+}
+
+// Drawn once, or as often as the change of its parameters while the shutter is open needs.
+Result<ExposedFlare> draw_frame(const PlannedFrame& planned, SourceRenderer& renderer, const Context& context) {
+  const RenderOptions& options = planned.options;
+  if (!planned.exposure) {
+    auto flare = draw_request(planned.request, options.layers, renderer, context);
+    if (!flare) return tl::unexpected(flare.error());
+    return ExposedFlare{std::move(*flare), 1, 0.0};
+  }
+  return planned.exposure->expose(
+      [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
+        const auto request = request_of(moment.values, options.needs_light, planned.exposure->source(), *moment.lens);
+        if (!request) return tl::unexpected(request.error());
+        return draw_request(*request, options.layers, renderer, within);
+      },
+      renderer, planned.request.settings.area_error, context);
 }
 
 }  // namespace
@@ -63,21 +85,22 @@ Result<PlannedFrame> plan_frame(const RenderOptions& options, const FlareSource&
   const auto files = open_render_files(options, planned.outputs);
   if (!files) return tl::unexpected(files.error());
   planned.files = *files;
-  auto request = request_of(options, source, *planned.lens);
+  auto request = request_of(options.values, options.needs_light, source, *planned.lens);
   if (!request) return tl::unexpected(request.error());
   planned.request = std::move(*request);
   return planned;
 }
 
 Result<RenderedFrame> render_frame(PlannedFrame&& planned, SourceRenderer& renderer, const Context& context) {
-  if (planned.options.layers.on()) return render_in_layers(std::move(planned), renderer, context);
-  auto flare = render_picture(planned.request, renderer, context);
-  if (!flare) return tl::unexpected(flare.error());
-  return RenderedFrame{std::move(planned), std::move(*flare)};
+  auto exposed = draw_frame(planned, renderer, context);
+  if (!exposed) return tl::unexpected(exposed.error());
+  LayeredFlare& flare = exposed->flare;
+  Flare whole{std::move(flare.image), std::move(flare.statistics)};
+  return RenderedFrame{std::move(planned), std::move(whole), std::move(flare.layers), exposed->drawn};
 }
 
 Result<void> write_frame(RenderedFrame& rendered, const Context& context) {
-  auto& [planned, flare, layers] = rendered;
+  auto& [planned, flare, layers, drawn] = rendered;
   const auto& [options, files] = std::tie(planned.options, planned.files);
   const PreviewSettings preview =
       params::preview_settings(options.values, flare.image, params::DefaultExposure::Automatic);
@@ -89,15 +112,16 @@ Result<void> write_frame(RenderedFrame& rendered, const Context& context) {
 }
 
 Json frame_json(const RenderedFrame& rendered) {
-  const auto& [planned, flare, layers] = rendered;
+  const auto& [planned, flare, layers, drawn] = rendered;
   return {{"lens", planned.lens->name},
           {"output", planned.options.output},
           {"lights", planned.request.lights.size()},
+          {"drawn", drawn},
           {"statistics", stats_json(flare.statistics)}};
 }
 
 std::string frame_text(const RenderedFrame& rendered) {
-  const auto& [planned, flare, layers] = rendered;
+  const auto& [planned, flare, layers, drawn] = rendered;
   return fmt::format("{}: {} x {}, {} ghosts, {:.2f} s\n", planned.options.output, flare.image.width,
                      flare.image.height, flare.statistics.ghosts_rendered, total_ms(flare.statistics) / 1000.0);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console.h"
+#include "cli/frame_exposure.h"
 #include "cli/layer_options.h"
 #include "cli/outputs.h"
 #include "cli/preset_choice.h"
@@ -42,12 +43,14 @@ struct PlannedFrame {
   Outputs outputs;
   RenderFiles files;
   PictureRequest request;
+  std::shared_ptr<const FrameExposure> exposure = nullptr;  // if more than lights changes while the shutter is open
 };
 
 struct RenderedFrame {
   PlannedFrame planned;
   Flare flare;
   std::vector<FlareLayer> layers = {};
+  int drawn = 1;  // how often, for motion blur
 };
 
 // Opens all outputs, so that a long rendering does not fail at its end, and takes the lights and settings from the

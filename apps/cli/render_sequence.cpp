@@ -26,12 +26,12 @@ Result<RenderOptions> options_of_frame(const RenderOptions& options, const Frame
 }
 
 // The files of a frame, for its record.
-FrameFiles files_of(const RenderOptions& own) {
+FrameFiles files_of(const RenderOptions& own, const std::string& exposure) {
   SettingsRecord settings = settings_record("render", own.lens, own.values);
   settings.text += fmt::format("default light = {}\n", own.needs_light);
   if (!own.colour.output_space.empty())
     settings.text += fmt::format("spaces = {} of {}\n", own.colour.output_space, colour_config(own.colour));
-  settings.text += layers_text(own.layers);
+  settings.text += exposure + layers_text(own.layers);
   return frame_files(std::move(settings), {}, own.outputs());
 }
 
@@ -41,7 +41,9 @@ Result<PlannedFrame> plan_numbered(const RenderOptions& options, const FrameValu
   if (!own) return tl::unexpected(own.error());
   auto state = lens.at(own->values);
   if (!state) return tl::unexpected(state.error());
-  return plan_frame(*own, lens.first_source(), std::move(*state));
+  auto planned = plan_frame(*own, lens.first_source(), std::move(*state));
+  if (planned) planned->exposure = FrameExposure::create(values, lens, frame);
+  return planned;
 }
 
 // The same with the ghosts that have layers of their own in all frames: the brightest ones of the first frame, with the
@@ -75,7 +77,7 @@ Result<int> render_sequence(const RenderOptions& given, const FrameValues& value
   if (sequence.resume)
     leave_out_done(*frames, [&](int frame) {
       const auto own = options_of_frame(options, values, frame);
-      return own && is_frame_done(files_of(*own));
+      return own && is_frame_done(files_of(*own, values.exposure_text(frame)));
     });
   if (sequence.list_frames) return print_frames(*frames);
   auto renderer = FrameRenderer::create(*lens, values.at(first));
@@ -92,7 +94,7 @@ Result<int> render_sequence(const RenderOptions& given, const FrameValues& value
     if (auto ok = write_frame(rendered, without_progress(task.context())); !ok) return ok;
     report.warn(rendered.planned.request.warnings);
     report.add(frame, rendered);
-    return write_frame_record(files_of(rendered.planned.options));
+    return write_frame_record(files_of(rendered.planned.options, values.exposure_text(frame)));
   };
   const auto failures = run_frames(
       *frames, [&](int frame) { return plan_numbered(options, values, *lens, frame); }, render, write,

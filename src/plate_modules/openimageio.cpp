@@ -10,6 +10,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "plate_modules/stated_size.h"
 #include "plates/format_module.h"
 
 namespace contrejour::inline internal {
@@ -91,10 +92,22 @@ std::uint64_t least_dpx_bytes(const OIIO::ImageSpec& spec, std::span<const std::
   return number(4, 4) + row * std::uint64_t(spec.height);
 }
 
+// What the file states is checked before OpenImageIO opens it, too.
+Result<void> check_before_opening(std::span<const std::byte> bytes, const std::string& format,
+                                  const ReadLimits& limits) {
+  if (format == "dpx" && claims_too_much_user_data(bytes))
+    return failure(ErrorCode::Parse, "the file is damaged: it claims more user data than it has bytes");
+  if (format != "jpeg") return {};
+  const auto stated = stated_jpeg_size(bytes);
+  if (!stated) return failure(ErrorCode::Parse, "the file is damaged: it has no frame");
+  return check_claims({stated->width, stated->height, stated->channels, OIIO::TypeDesc::UINT8}, bytes.size(), limits);
+}
+
 Result<CodedImage> read(std::span<const std::byte> bytes, const std::string& format, const ReadLimits& limits) {
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(bytes.data()), bytes.size());
   const auto input = OIIO::ImageInput::create(format);
   if (!input) return failure(ErrorCode::Unsupported, fmt::format("this OpenImageIO does not read {}", format));
+  if (auto ok = check_before_opening(bytes, format, limits); !ok) return tl::unexpected(ok.error());
   OIIO::ImageSpec settings, spec;
   settings.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->set_ioproxy(&memory) || !input->open("picture." + format, spec, settings))
@@ -117,11 +130,13 @@ Result<CodedImage> read(std::span<const std::byte> bytes, const std::string& for
   return image;
 }
 
-// The settings of a new file: what the picture's own file stated, if it had this form.
+// The settings of a new file: what the picture's own file stated, if it had this form. Padding is left out: a DPX may
+// claim any, and OpenImageIO's writer trusts it.
 OIIO::ImageSpec spec_of(const CodedImage& image) {
   const auto* const stated = static_cast<const OIIO::ImageSpec*>(image.header.get());
   OIIO::ImageSpec spec(image.width, image.height, image.channels, type_of(image.type));
   if (stated != nullptr) spec.extra_attribs = stated->extra_attribs;
+  for (const char* const padding : {"dpx:EndOfLinePadding", "dpx:EndOfImagePadding"}) spec.erase_attribute(padding);
   spec.attribute("oiio:BitsPerSample", image.bits);
   if (image.channels == 2 || image.channels == 4) {
     spec.alpha_channel = image.channels - 1;

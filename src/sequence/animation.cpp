@@ -19,13 +19,12 @@ using params::Parameter;
 
 constexpr int kPathPositions = 9;  // odd, so that one is in the middle
 
-// Evenly spaced times from the opening of the shutter to its closing; one if it is open for no time.
-std::vector<double> exposure_times(double frame, Shutter shutter) {
-  const double open = shutter.angle_deg / 360.0;
-  if (!(open > 0.0)) return {frame};
-  const double from = shutter.centred ? frame - 0.5 * open : frame;
+// Evenly spaced times of a part of the exposure; one if it lasts for no time.
+std::vector<double> exposure_times(double frame, Shutter shutter, ExposurePart part) {
+  if (!(shutter.angle_deg > 0.0 && part.to > part.from)) return {time_of_exposure(frame, shutter, part.from)};
   std::vector<double> times;
-  for (int k = 0; k < kPathPositions; ++k) times.push_back(from + open * k / (kPathPositions - 1));
+  for (int k = 0; k < kPathPositions; ++k)
+    times.push_back(time_of_exposure(frame, shutter, std::lerp(part.from, part.to, k / (kPathPositions - 1.0))));
   return times;
 }
 
@@ -66,6 +65,14 @@ std::string parameter_text(const Parameter& parameter, const KeyedValue& value, 
   return text_at(value, frame);
 }
 
+// Whether it can be blurred: a number between two keys, for the frame's picture itself.
+bool changes_gradually(const Parameter& parameter, const KeyedValue& value) {
+  if (value.keys.front().numbers.empty() || value.between == Interpolation::Step) return false;
+  const bool finds_lights = parameter.scene && parameter.group == "Light detection";
+  if (parameter.kind == Kind::Integer || finds_lights) return false;
+  return parameter.name != "shutter-angle" && parameter.name != "exposure";
+}
+
 bool is_on(const AnimatedLight& light, double frame) { return !light.on || text_at(*light.on, frame) != "off"; }
 
 std::vector<const KeyedValue*> all_values(const Animation& animation) {
@@ -89,6 +96,28 @@ params::Values parameters_at(const Animation& animation, double frame) {
   return values;
 }
 
+double time_of_exposure(double frame, Shutter shutter, double fraction) {
+  const double open = shutter.angle_deg / 360.0;
+  return (shutter.centred ? frame - 0.5 * open : frame) + open * fraction;
+}
+
+params::Values parameters_during(const Animation& animation, double frame, double time) {
+  params::Values values;
+  for (const auto& [name, value] : animation.parameters) {
+    const Parameter& parameter = params::parameter(name);
+    const double at = changes_gradually(parameter, value) ? time : frame;
+    static_cast<void>(values.set(name, parameter_text(parameter, value, at)));
+  }
+  return values;
+}
+
+bool do_lights_move(const Animation& animation, double frame, Shutter shutter) {
+  const std::vector<double> times = exposure_times(frame, shutter, {});
+  return std::ranges::any_of(animation.lights, [&](const AnimatedLight& light) {
+    return is_on(light, frame) && path_text(light.position, times).find('/') != std::string::npos;
+  });
+}
+
 std::vector<std::string> names_of_lights_at(const Animation& animation, double frame, bool by_direction) {
   std::vector<std::string> names;
   for (const AnimatedLight& light : animation.lights)
@@ -96,8 +125,9 @@ std::vector<std::string> names_of_lights_at(const Animation& animation, double f
   return names;
 }
 
-void add_lights_at(const Animation& animation, double frame, params::Values& values, Shutter shutter) {
-  const std::vector<double> times = exposure_times(frame, shutter);
+void add_lights_at(const Animation& animation, double frame, params::Values& values, Shutter shutter,
+                   ExposurePart part) {
+  const std::vector<double> times = exposure_times(frame, shutter, part);
   for (const AnimatedLight& light : animation.lights) {
     if (!is_on(light, frame)) continue;
     static_cast<void>(values.set(light.by_direction ? "light" : "light-at", light_text(light, times)));

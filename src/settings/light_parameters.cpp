@@ -35,7 +35,7 @@ const Parameter kLightTable[] = {
      .fallback = "0", .help = "angular diameter of the lights, which are discs; 0.53 for the sun; 0: points",
      .scene = true},
     {.name = "shutter-angle", .group = "Lights", .kind = Kind::Real, .unit = "deg", .minimum = 0, .maximum = 360,
-     .fallback = "0", .help = "motion blur of the lights of --lights: the shutter is open for DEG/360 of a frame; "
+     .fallback = "0", .help = "motion blur of what changes in --lights: the shutter is open for DEG/360 of a frame; "
              "180 is usual; 0: none", .scene = true},
     {.name = "shutter-offset", .group = "Lights", .kind = Kind::Choice, .fallback = "start",
      .help = "whether the shutter opens at the frame's time, or is open for as long before it as after it",

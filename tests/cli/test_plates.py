@@ -4,7 +4,9 @@
 import json
 import pathlib
 import random
+import resource
 import struct
+import subprocess
 import unittest
 
 import exr
@@ -14,6 +16,7 @@ from program import PROGRAM, ProgramTest
 WIDTH, HEIGHT = 96, 64
 LENS = ["heliar", "-f", "8", "--error", "0.003"]
 MODULES = pathlib.Path(PROGRAM).parent
+CORPUS = pathlib.Path(__file__).resolve().parents[2] / "fuzz/corpus/plate"
 HAS_FORMATS = (MODULES / "contrejour-openimageio.so").exists()
 HAS_SPACES = (MODULES / "contrejour-opencolorio.so").exists()
 LOG, VIDEO = 3, 6  # transfer characteristics of SMPTE 268M: logarithmic, ITU-R 709
@@ -84,6 +87,19 @@ class Formats(ProgramTest):
         self.assertAlmostEqual(report["flux_ratio"][1], 1.0, delta=0.03)  # which RGBE truncates
         self.assertEqual((self.folder / "a.tif").read_bytes()[:2], b"II")
         self.assertIn("layers need an EXR", self.error_of(*frame, "-o", "b.tif", "--layers", "part", code=1))
+
+    def test_claims_of_memory_are_refused_before_it_is_allocated(self):
+        """A few bytes that claim gigabytes, or padding that a writer would trust; the program has 3 GB at most."""
+        def run(name, output):
+            return subprocess.run([PROGRAM, "apply", *LENS, CORPUS / name, "-o", output, "--no-detect"], cwd=self.folder,
+                                  capture_output=True, timeout=60,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (3 << 30, 3 << 30)))
+        for name, words in (("claims.jpg", "65280 x 65280"), ("user_data.dpx", "user data")):
+            done = run(name, "out.exr")
+            self.assertEqual(done.returncode, 1, name)
+            self.assertIn(words, done.stderr.decode())
+        self.assertEqual(run("padding.dpx", "out.dpx").returncode, 0)
+        self.assertLess((self.folder / "out.dpx").stat().st_size, 1 << 20)
 
     def test_damaged_files_are_refused(self):
         write_dpx(self.folder / "whole.dpx", plate_codes(), VIDEO)

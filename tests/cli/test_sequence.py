@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """apply on a sequence: names, ranges, frames that are missing or damaged, resuming after any end, JSON."""
 import json
+import math
 import random
 import signal
 import subprocess
@@ -173,6 +174,76 @@ class Sequence(ProgramTest):
             peaks.append(max(green))
         self.assertAlmostEqual(sums[1] / sums[0], 1.0, delta=0.15)
         self.assertLess(peaks[1], 0.7 * peaks[0])
+
+    def blurred_and_mean(self, command, keys, light, sharp=32, degrees="360"):
+        """PSNR in dB of a blurred frame against the mean of sharp ones; how often it was drawn."""
+        def write(last):
+            lines = "\n".join(f"{name} = {{ 0 = {a}, {last} = {b} }}" for name, (a, b) in keys.items())
+            (self.folder / "lights.toml").write_text(
+                f"[parameters]\n{lines}\n[[light]]\nat = {{ 0 = {light[0]}, {last} = {light[1]} }}\nvalue = 5000\n")
+        write(sharp)
+        run = [*command, "--lights", "lights.toml", "--error", "0.001"]
+        self.run_program(*run, "-o", "sharp.#.exr", "--frames", f"0-{sharp}")
+        pictures = [exr.Picture(self.folder / f"sharp.{k}.exr").channels for k in range(sharp + 1)]
+        weights = [0.5 / sharp if k in (0, sharp) else 1 / sharp for k in range(sharp + 1)]
+        write(1)
+        run[-1] = "0.003"
+        done = self.run_program(*run, "-o", "blurred.#.exr", "--frames", "0", "--shutter-angle", degrees, "--json")
+        ours = exr.Picture(self.folder / "blurred.0.exr").channels
+        self.run_program(*run, "-o", "still.exr", "--shutter-angle", degrees)
+        self.assertEqual((self.folder / "still.exr").read_bytes(), (self.folder / "blurred.0.exr").read_bytes())
+        means = [sum(w * value for w, value in zip(weights, values))
+                 for c in "RGB" for values in zip(*(p[c] for p in pictures))]
+        got = [value for c in "RGB" for value in ours[c]]
+        peak = sorted(means)[int(0.999 * len(means))]
+        mse = sum((min(a, peak) - min(b, peak)) ** 2 for a, b in zip(means, got)) / len(means)
+        return 10 * math.log10(peak ** 2 / mse), json.loads(done.stdout)["drawn"]
+
+    def test_a_zoom_is_blurred(self):
+        command = ["render", "canon-70-200", "--select", "brightest:4", "--size", "96x64", "--wavelengths", "3", "-f", "8"]
+        psnr, drawn = self.blurred_and_mean(command, {"focal": (135, 150)}, ([0.7, 0.33], [0.7, 0.33]))
+        self.assertGreater(psnr, 45)
+        self.assertLess(drawn, 32)
+        _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.7, 0.33], [0.7, 0.33]), sharp=1)
+        self.assertEqual(drawn, 2)
+        _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.5, 0.33], [0.7, 0.33]), sharp=1)
+        self.assertEqual(drawn, 3)  # the light on its way at once
+
+    def test_focus_aperture_and_a_moving_light_are_blurred(self):
+        command = ["render", "heliar", "--size", "96x64", "--wavelengths", "3"]
+        psnr, drawn = self.blurred_and_mean(command, {"fnumber": (8, 11), "focus": (900, 2000)},
+                                            ([0.6, 0.33], [0.7, 0.4]))
+        self.assertGreater(psnr, 45)
+        self.assertLess(drawn, 40)
+
+    def test_a_photographs_flare_is_blurred_in_layers(self):
+        self.write_frames(0)
+        (self.folder / "lights.toml").write_text("[parameters]\nfnumber = { 0 = 8, 1 = 11 }\ngain = { 0 = 1, 1 = 3 }\n")
+        run = ["apply", "heliar", "plate.0000.exr", "-o", "out.exr", "--flare-only", "flare.exr", "--lights", "lights.toml",
+               "--shutter-angle", "180"]
+        self.run_program(*run, "--layers", "ghost", "--layer-count", "3")
+        channels = exr.Picture(self.folder / "flare.exr").channels
+        layers = [values for name, values in channels.items() if name.endswith(".G")]
+        self.assertEqual(len(layers), 4)
+        for whole, *parts in zip(channels["G"], *layers):
+            self.assertAlmostEqual(whole, sum(parts), delta=1e-6 * max(channels["G"]))
+        (self.folder / "lights.toml").write_text("[parameters]\ngain = { 0 = 1, 1 = 3 }\n")
+        self.run_program(*run, "-f", "8")
+        blurred = exr.Picture(self.folder / "flare.exr").channels["G"]
+        self.run_program("apply", "heliar", "plate.0000.exr", "-o", "out.exr", "--flare-only", "one.exr", "-f", "8")
+        one = exr.Picture(self.folder / "one.exr").channels["G"]
+        self.assertAlmostEqual(sum(blurred) / sum(one), 1.5, delta=1e-3)
+
+    def test_resuming_follows_what_changes_in_the_exposure(self):
+        def write(fnumber):
+            (self.folder / "lights.toml").write_text(
+                f"[parameters]\nfnumber = {{ 1 = 8, 2 = {fnumber} }}\n[[light]]\nat = [0.4, 0.4]\nvalue = 5000\n")
+        run = ["-o", "out.#.exr", "--frames", "1-2", "--shutter-angle", "180"]
+        write(11)
+        self.render(*run)
+        self.assertIn("2 of 2 frames are done", self.render(*run, "--resume").stderr.decode())
+        write(16)
+        self.assertNotIn("2 of 2", self.render(*run, "--resume").stderr.decode())
 
 
 if __name__ == "__main__":

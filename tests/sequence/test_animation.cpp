@@ -202,3 +202,35 @@ TEST_CASE("paths of lights as text") {
   for (int k = 0; k < 64; ++k) many += "/0,0";
   CHECK_FALSE(params::parse_light(many));
 }
+TEST_CASE("what changes gradually while the shutter is open is that of each time, all else that of the frame") {
+  const auto shot = read_animation(
+      "[parameters]\n"
+      "focal = { 1 = 70, 2 = 80 }\n"
+      "fnumber = { 1 = 4, 2 = 8, between = \"step\" }\n"
+      "blades = { 1 = 5, 3 = 9 }\n"
+      "threshold = { 1 = 2, 2 = 4 }\n"
+      "dirt-plane = { 1 = \"front\", 2 = \"stop\" }\n"
+      "[[light]]\nat = { 1 = [0.2, 0.4], 2 = [0.4, 0.4] }\nvalue = 10\non = { 1 = true, 2 = false }\n",
+      "shot.toml");
+  REQUIRE(shot);
+  const Shutter half{180.0, false}, centred{180.0, true};
+  CHECK(time_of_exposure(1, half, 0.0) == 1.0);
+  CHECK(time_of_exposure(1, half, 1.0) == 1.5);
+  CHECK(time_of_exposure(2, centred, 0.0) == 1.75);
+  const params::Values values = parameters_during(*shot, 1, 1.5);
+  CHECK(values.text("focal") == "75");
+  CHECK(values.text("fnumber") == "4");
+  CHECK(values.text("blades") == "5");
+  CHECK(values.text("threshold") == "2");
+  CHECK(values.text("dirt-plane") == "front");
+  CHECK(do_lights_move(*shot, 1, half));
+  CHECK(!do_lights_move(*shot, 1, {}));
+  CHECK(!do_lights_move(*shot, 2, half));  // off
+  params::Values at_time;
+  add_lights_at(*shot, 1, at_time, half, {0.5, 0.5});
+  CHECK(at_time.list("light-at") == std::vector<std::string>{"0.25,0.4:10"});
+  params::Values on_its_way;
+  add_lights_at(*shot, 1, on_its_way, half, {0.5, 1.0});
+  REQUIRE(on_its_way.list("light-at").size() == 1);
+  CHECK(on_its_way.list("light-at").front().starts_with("0.25,0.4/"));
+}

@@ -242,6 +242,31 @@ TEST_CASE("a light behind a pole keeps its name, fades, and another one behind a
   CHECK(*read_animation(write_animation(shot), "shot.toml") == shot);
 }
 
+TEST_CASE("lights that appear and move farther than the search keep their names from their first frame on") {
+  // Equal lights that come out of one place one after the other, fast at first: when the second one appears, it is
+  // where the first one was, which has moved on by more than the search.
+  constexpr int kLights = 4, kLag = 2;
+  const auto path = [](int age) {
+    static constexpr double kStart[] = {20, 50, 74, 92, 104, 112, 118};
+    return Vec2{age < 7 ? kStart[age] : 118.0 + 5.0 * (age - 6), 45.0};
+  };
+  const auto age_of = [](int light, int frame) { return frame - 3 - kLag * light; };
+  const auto frames = detected(16, [&](int frame, Image& image) {
+    draw(image, {{80, 20}});  // another one, which stands still
+    for (int light = 0; light < kLights; ++light)
+      if (age_of(light, frame) >= 0) draw(image, {path(age_of(light, frame))});
+  });
+  const auto tracks = track_lights(frames, {.search_px = 16});
+  CHECK(tracks.size() == kLights + 1);
+  for (int light = 0; light < kLights; ++light) {
+    CAPTURE(light);
+    CHECK(std::ranges::any_of(tracks, [&](const LightTrack& track) {
+      return age_of(light, track.points.front().frame) == 0 && track.points.back().frame == 15 &&
+             farthest(track, [&](int frame) { return path(std::max(0, age_of(light, frame))); }) < 0.5;
+    }));
+  }
+}
+
 TEST_CASE("lights enter and leave at the edge without a step") {
   constexpr int kFrames = 40;
   // A light of one pixel, whose measured flux ends at once where it leaves.

@@ -73,14 +73,30 @@ struct Shutter {
   bool centred = false;
 };
 
+// A time of a frame's exposure: fraction 0 is the shutter's opening, 1 its closing.
+[[nodiscard]] CONTREJOUR_API double time_of_exposure(double frame, Shutter shutter, double fraction);
+
+// The parameters at a time of a frame's exposure: numbers that change gradually are those of the time; steps, texts,
+// whole numbers, the settings of detection and those of the shutter itself are those of the frame.
+[[nodiscard]] CONTREJOUR_API params::Values parameters_during(const Animation& animation, double frame, double time);
+
+// Whether a light that is on at a frame moves while the shutter is open.
+[[nodiscard]] CONTREJOUR_API bool do_lights_move(const Animation& animation, double frame, Shutter shutter);
+
 // The names of the lights that are on at a frame and have their position by direction, or in the frame.
 [[nodiscard]] CONTREJOUR_API std::vector<std::string> names_of_lights_at(const Animation& animation, double frame,
                                                                          bool by_direction);
 
+// A part of a frame's exposure, as fractions of it.
+struct ExposurePart {
+  double from = 0.0, to = 1.0;
+};
+
 // Adds the lights that are on at a frame to the values, as --light and --light-at. While the shutter is open a light
-// takes a path, has the mean of its value, and the colour, size and distance of the middle of that time.
+// takes a path, has the mean of its value, and the colour, size and distance of the middle of that time. part: that of
+// the exposure; where it begins and ends at one time, so are the lights.
 CONTREJOUR_API void add_lights_at(const Animation& animation, double frame, params::Values& values,
-                                  Shutter shutter = {});
+                                  Shutter shutter = {}, ExposurePart part = {});
 
 // The first frame that has a key; 0 if there is none.
 [[nodiscard]] CONTREJOUR_API int first_key(const Animation& animation);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights that were detected in each frame of a shot (light_detection.h) -> lights with an identity over time, and these
 // as keys of a file (animation.h). docs/sequences.md describes what is done.
-// A light is expected where its velocity takes it; lights and detections are then paired so that the sum of all pairs'
-// likelihoods is largest, by position, flux, colour and size. Lights whose areas meet share one detection, lights that
-// something thin divides take several, and a light that is hidden for a few frames keeps its name.
-// Deterministic. Thread-safety: plain values and pure functions.
+// A light is expected where its velocity takes it, at first as the shot followed backwards shows it; lights and
+// detections are then paired so that the sum of all pairs' likelihoods is largest, by position, flux, colour and size.
+// Lights whose areas meet share one detection, lights that something thin divides take several, and a light that is
+// hidden for a few frames keeps its name. Deterministic. Thread-safety: plain values and pure functions.
 #pragma once
 
 #include <optional>

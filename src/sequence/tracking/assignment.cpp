@@ -1,99 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sequence/tracking/assignment.h"
 
-#include <algorithm>
-#include <limits>
+#include <cassert>
+
+#include <lemon/network_simplex.h>
+#include <lemon/smart_graph.h>
 
 namespace contrejour::inline internal {
 namespace {
 
-using Cost = std::int64_t;
-constexpr Cost kInfinite = std::numeric_limits<Cost>::max() / 4;
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+using Graph = lemon::SmartDigraph;
 
-// Every row gets a column at the least total cost; there are at least as many columns as rows. Rows are added one by
-// one. Prices of rows and columns make every reduced cost at least 0, and 0 for the pairs so far, so that the cheapest
-// way to add a row is a shortest path, as Dijkstra's algorithm finds it, along which pairs are exchanged.
-class LeastCostAssignment {
- public:
-  LeastCostAssignment(std::size_t rows, std::size_t columns)
-      : columns_(columns), costs_(rows * columns), row_price_(rows), column_price_(columns), row_of_(columns, kNone) {}
-
-  [[nodiscard]] Cost& cost(std::size_t row, std::size_t column) { return costs_[row * columns_ + column]; }
-
-  void add_row(std::size_t row) {
-    distance_.assign(columns_, kInfinite);
-    before_.assign(columns_, kNone);
-    is_reached_.assign(columns_, false);
-    std::size_t at_row = row, column = kNone;
-    while (true) {
-      relax(at_row, column);
-      const std::size_t next = nearest();
-      move_prices(row, distance_[next]);
-      is_reached_[next] = true;
-      column = next;
-      if (row_of_[column] == kNone) break;
-      at_row = row_of_[column];
-    }
-    for (; column != kNone; column = before_[column])
-      row_of_[column] = before_[column] == kNone ? row : row_of_[before_[column]];
-  }
-
-  [[nodiscard]] const std::vector<std::size_t>& row_of_columns() const { return row_of_; }
-
- private:
-  // Paths from the row, which is that of a reached column, to all columns.
-  void relax(std::size_t row, std::size_t column) {
-    for (std::size_t j = 0; j < columns_; ++j) {
-      const Cost reduced = cost(row, j) - row_price_[row] - column_price_[j];
-      if (is_reached_[j] || reduced >= distance_[j]) continue;
-      distance_[j] = reduced;
-      before_[j] = column;
-    }
-  }
-
-  [[nodiscard]] std::size_t nearest() const {
-    std::size_t best = kNone;
-    for (std::size_t j = 0; j < columns_; ++j)
-      if (!is_reached_[j] && (best == kNone || distance_[j] < distance_[best])) best = j;
-    return best;
-  }
-
-  // Makes the nearest column's reduced cost 0; distances are from the columns reached so far.
-  void move_prices(std::size_t row, Cost step) {
-    row_price_[row] += step;
-    for (std::size_t j = 0; j < columns_; ++j) {
-      if (is_reached_[j]) {
-        row_price_[row_of_[j]] += step;
-        column_price_[j] -= step;
-      } else if (distance_[j] < kInfinite) {
-        distance_[j] -= step;
-      }
-    }
-  }
-
-  std::size_t columns_;
-  std::vector<Cost> costs_, row_price_, column_price_, distance_;
-  std::vector<std::size_t> row_of_, before_;
-  std::vector<bool> is_reached_;
-};
+std::vector<Graph::Node> add_nodes(Graph& graph, int count) {
+  std::vector<Graph::Node> nodes;
+  for (int k = 0; k < count; ++k) nodes.push_back(graph.addNode());
+  return nodes;
+}
 
 }  // namespace
 
-// Each row has a column of its own besides, which means that it has no pair and costs nothing.
+// As the circulation of least cost, whose arcs carry at most 1: from a hub to each row, along a pair at the cost of
+// minus its gain, and from each column back to the hub. LEMON's network simplex finds it in whole numbers; its headers
+// are all that is used of the library.
 std::vector<int> best_assignment(int rows, int columns, std::span<const PairGain> pairs) {
-  const auto height = static_cast<std::size_t>(rows), width = static_cast<std::size_t>(columns);
-  LeastCostAssignment assignment(height, width + height);
-  for (std::size_t row = 0; row < height; ++row)
-    for (std::size_t column = 0; column < width + height; ++column)
-      if (column != width + row) assignment.cost(row, column) = kInfinite / 4;
-  for (const PairGain& pair : pairs)
-    assignment.cost(static_cast<std::size_t>(pair.row), static_cast<std::size_t>(pair.column)) = -pair.gain;
-  for (std::size_t row = 0; row < height; ++row) assignment.add_row(row);
-  std::vector<int> column_of_row(height, -1);
-  for (std::size_t column = 0; column < width; ++column)
-    if (const std::size_t row = assignment.row_of_columns()[column]; row != kNone)
-      column_of_row[row] = static_cast<int>(column);
+  Graph graph;
+  const Graph::Node hub = graph.addNode();
+  const std::vector<Graph::Node> of_rows = add_nodes(graph, rows), of_columns = add_nodes(graph, columns);
+  for (const Graph::Node row : of_rows) graph.addArc(hub, row);
+  for (const Graph::Node column : of_columns) graph.addArc(column, hub);
+  Graph::ArcMap<std::int64_t> cost(graph, 0);
+  std::vector<Graph::Arc> arcs;
+  for (const PairGain& pair : pairs) {
+    arcs.push_back(
+        graph.addArc(of_rows[static_cast<std::size_t>(pair.row)], of_columns[static_cast<std::size_t>(pair.column)]));
+    cost[arcs.back()] = -pair.gain;
+  }
+  std::vector<int> column_of_row(static_cast<std::size_t>(rows), -1);
+  if (pairs.empty()) return column_of_row;
+  const Graph::ArcMap<int> most(graph, 1);
+  lemon::NetworkSimplex<Graph, int, std::int64_t> simplex(graph);
+  [[maybe_unused]] const auto outcome = simplex.upperMap(most).costMap(cost).run();
+  assert(outcome == decltype(simplex)::OPTIMAL);  // no flow at all is a circulation, and all arcs are bounded
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (simplex.flow(arcs[k]) > 0) column_of_row[static_cast<std::size_t>(pairs[k].row)] = pairs[k].column;
   return column_of_row;
 }
 

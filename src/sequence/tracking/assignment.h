@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs of rows and columns, each in at most one pair, with the largest sum of gains: the assignment problem, by
-// shortest augmenting paths (Kuhn 1955; Jonker and Volgenant 1987), exact. Time: rows^2 (rows + columns) at most.
+// Pairs of rows and columns, each in at most one pair, with the largest sum of gains: the assignment problem, exact.
 // Thread-safety: a pure function.
 #pragma once
 

@@ -22,7 +22,10 @@ struct LightMotion {
   double innovation_px = 1;   // how far detections were from the predictions
   int seen = 0, missed = 0;   // frames: in all, and since it was last seen
 
-  [[nodiscard]] bool has_velocity() const { return seen >= 3; }
+  bool knows_start = false;   // the velocity after the first frame is that to the second (start_velocities.h)
+
+  [[nodiscard]] bool has_velocity() const { return seen >= 3 || knows_start; }
+  [[nodiscard]] bool next_is_known() const { return knows_start && seen == 1; }  // the camera's motion included
 };
 
 [[nodiscard]] LightMotion new_motion(int frame, const DetectedLight& light, Vec2 velocity_px);

@@ -121,7 +121,7 @@ void LightTracker::predict(const FrameLights& frame) {
   const Vec2 shift = common_displacement(displacements_of(motions_, frame, pair_up(frame, true))).value_or(Vec2{});
   for (LightMotion& motion : motions_) {
     motion.camera_px = shift;
-    motion.predicted_px = motion.predicted_px + shift;
+    if (!motion.next_is_known()) motion.predicted_px = motion.predicted_px + shift;
   }
 }
 
@@ -156,7 +156,9 @@ void LightTracker::add_new_lights(const FrameLights& frame, const std::vector<bo
   const Vec2 velocity = common_velocity(motions_);
   for (std::size_t d = 0; d < frame.lights.size(); ++d) {
     if (is_taken[d]) continue;
-    motions_.push_back(new_motion(frame.frame, frame.lights[d], velocity));
+    const std::optional<Vec2> known = starts_.of(frame.frame, frame.lights[d].centroid_px);
+    motions_.push_back(new_motion(frame.frame, frame.lights[d], known.value_or(velocity)));
+    motions_.back().knows_start = known.has_value();
     const Vec2 before = frame.lights[d].centroid_px - velocity;
     motions_.back().track.begins_apart = std::none_of(
         last_lights_.begin(), last_lights_.end(), [&](const DetectedLight& l) { return is_within(l, before, 0.0); });

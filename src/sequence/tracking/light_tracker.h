@@ -3,16 +3,19 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contrejour/expert/light_tracks.h"
 #include "sequence/tracking/light_motion.h"
+#include "sequence/tracking/start_velocities.h"
 
 namespace contrejour::inline internal {
 
 class LightTracker {
  public:
-  explicit LightTracker(const TrackingSettings& settings) : settings_(settings) {}
+  explicit LightTracker(const TrackingSettings& settings, StartVelocities starts = {})
+      : settings_(settings), starts_(std::move(starts)) {}
 
   void add(const FrameLights& frame);  // frames in rising order
   [[nodiscard]] std::vector<LightTrack> finish();
@@ -26,6 +29,7 @@ class LightTracker {
   void end_lights(const FrameLights& frame);
 
   TrackingSettings settings_;
+  StartVelocities starts_;
   std::vector<LightMotion> motions_;
   std::vector<LightTrack> ended_;
   std::vector<DetectedLight> last_lights_;

@@ -30,7 +30,9 @@ std::optional<double> shot_threshold(std::span<const Threshold> thresholds) {
 }
 
 std::vector<LightTrack> track_lights(std::span<const FrameLights> frames, const TrackingSettings& settings) {
-  LightTracker tracker(settings);
+  LightTracker reversed(settings);
+  for (const FrameLights& frame : backwards(frames)) reversed.add(frame);
+  LightTracker tracker(settings, StartVelocities(reversed.finish()));
   for (const FrameLights& frame : frames) tracker.add(frame);
   return tracker.finish();
 }
