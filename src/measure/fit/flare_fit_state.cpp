@@ -63,6 +63,14 @@ void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& s
   }
 }
 
+std::vector<double> deviations_of(const HaloProfile& halo, const std::vector<FitStation>& residuals,
+                                  const SweepStations& sweep) {
+  std::vector<double> deviations;
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    deviations.push_back(halo_deviation(halo, residuals[k], sweep.lights_px[k], sweep.masked_px));
+  return deviations;
+}
+
 }  // namespace
 
 MeasuredFlare FlareFit::flare_of(std::vector<MeasuredGhost> ghosts) const {
@@ -110,11 +118,13 @@ void subtract_small_ghosts(FlareFit& fit) {
 void separate_halo(FlareFit& fit, double quantile) {
   std::vector<MeasuredGhost> all = fit.flare().ghosts;
   all.insert(all.end(), fit.small.begin(), fit.small.end());
-  const std::vector<FitStation> residuals =
-      residual_stations(fit.sweep.stations, fit.flare_of(std::move(all)), fit.context);
+  const MeasuredFlare flare = fit.flare_of(std::move(all));
+  const std::vector<FitStation> residuals = residual_stations(fit.sweep.stations, flare, fit.context);
   const HaloProfile halo = halo_of(residuals, fit.sweep.lights_px, {fit.sweep.masked_px, quantile});
-  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error);
-  fit.held_fine = stations_without(fit.held_out, halo, fit.options.model_error);
+  const std::vector<FitStation> held_residuals = residual_stations(fit.held_out.stations, flare, fit.context);
+  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error, deviations_of(halo, residuals, fit.sweep));
+  fit.held_fine =
+      stations_without(fit.held_out, halo, fit.options.model_error, deviations_of(halo, held_residuals, fit.held_out));
   subtract_small_ghosts(fit);
 }
 
