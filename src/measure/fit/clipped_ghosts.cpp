@@ -13,8 +13,20 @@ namespace {
 constexpr double kLeastRadius_px = 4.0;  // in half the size: the cut of a smaller ghost cannot be made out
 constexpr double kStartRadius = 1.2;     // of a ghost's radius: the circle's, which leaves it whole on the axis
 constexpr double kStartDepth = 0.8;  // of a ghost's radius: how far the circle has moved into it at the largest angle
-constexpr int kIterations = 15;
 constexpr std::size_t kClipBands = 2;  // coefficients of each of the circle's curves
+
+// The disc that a ghost is on the axis, moving evenly: without what its outline took on to follow the cut.
+MeasuredGhost plain_disc(MeasuredGhost ghost) {
+  const double radius = ghost.half_height(0.0);
+  for (AngleCurve* curve :
+       {&ghost.centre, &ghost.half_width, &ghost.skew, &ghost.half_height, &ghost.roundness, &ghost.roundness_skew})
+    std::fill(curve->coefficients.begin() + (curve->coefficients.empty() ? 0 : 1), curve->coefficients.end(), 0.0);
+  for (AngleCurve* curve : {&ghost.skew, &ghost.roundness_skew})
+    std::fill(curve->coefficients.begin(), curve->coefficients.end(), 0.0);
+  for (AngleCurve* curve : {&ghost.half_width, &ghost.half_height}) curve->coefficients.front() = radius;
+  ghost.roundness.coefficients.front() = kEllipseRoundness;
+  return ghost;
+}
 
 // A circle concentric with the ghost on the axis, which moves into it from one side.
 MeasuredGhost with_clip(MeasuredGhost ghost, double side, double s_max) {
@@ -44,7 +56,7 @@ OtherResiduals residuals_without(const FlareFit& fit, std::size_t ghost) {
   std::vector<MeasuredGhost> others = fit.flare().ghosts;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(ghost));
   const MeasuredFlare flare = fit.flare_of(std::move(others));
-  return {residual_stations(few_stations(fit.coarse_samples, fit.flare().s_max), flare, fit.context),
+  return {residual_stations(few_stations(fit.coarse_samples, 0.0, fit.flare().s_max), flare, fit.context),
           residual_stations(fit.held_coarse, flare, fit.context)};
 }
 
@@ -55,10 +67,11 @@ std::optional<MeasuredGhost> clipped(FlareFit& fit, const OtherResiduals& residu
   double least_held = cost_of(fit, residuals.held, plain);
   std::optional<MeasuredGhost> best;
   for (const double side : {-1.0, 1.0}) {
-    LevelFit cut{fit.flare_of({with_clip(ghost, side, fit.flare().s_max)}), 0.0, 0.0};
-    for (const double huber : {kFarHuber, fit.options.huber})
-      cut = optimised(fit, residuals.fitted, cut.flare, {huber, kIterations});
+    LevelFit cut{fit.flare_of({with_clip(plain_disc(ghost), side, fit.flare().s_max)}), 0.0, 0.0};
+    for (const double huber : {kNoHuber, kFarHuber, fit.options.huber})
+      cut = optimised(fit, residuals.fitted, cut.flare, {huber, kAloneIterations});
     const double held = cost_of(fit, residuals.held, cut.flare);
+    if (!check_flare(cut.flare)) continue;
     if (!(cut.cost < least) || (!residuals.held.empty() && !(held < least_held))) continue;
     least = cut.cost;
     least_held = held;
