@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ghosts that a circle cuts, found by a fit; ghosts that are seen from some angle on only.
+// Ghosts that a circle cuts, found by a fit.
 #include <cmath>
 #include <random>
 #include <vector>
@@ -7,7 +7,6 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/fit_flare.h"
-#include "measure/find/station_steps.h"
 
 using namespace contrejour;
 
@@ -66,16 +65,4 @@ TEST_CASE("clipped ghosts: a fit finds the circle that cuts a disc, and the disc
     CHECK(ghost.centre(s) + ghost.half_width(s) + ghost.skew(s) == doctest::Approx(-0.6 * s + 0.13).epsilon(0.02));
   }
   CHECK(fit->held_out_nrmse < 0.05);
-}
-
-TEST_CASE("station steps: a ghost that the halo hides near the axis counts from where it is seen") {
-  std::vector<StationStep> steps;
-  for (int k = 0; k < 16; ++k) steps.push_back({0.01 * (k + 1), k < 7 ? -2.0 : 1.0});
-  const StationsContrast contrast = contrast_over_stations(steps);
-  CHECK(contrast.contrast == doctest::Approx(std::sqrt(8.0)));
-  CHECK(contrast.first == doctest::Approx(0.09));
-  CHECK(contrast.last == doctest::Approx(0.16));
-  CHECK(contrast.signed_contrast == doctest::Approx(-2.0 * std::sqrt(16.0)));
-  for (StationStep& step : steps) step.step = 1.0;
-  CHECK(contrast_over_stations(steps).first == doctest::Approx(0.01));
 }

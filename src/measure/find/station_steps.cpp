@@ -10,24 +10,24 @@ namespace {
 
 constexpr double kOverStations = 0.2;  // the quantile of the steps
 constexpr std::size_t kMinStations = 5;
-constexpr std::size_t kFirstStations =
-    3;  // a ghost may be seen from the axis on, from a quarter or from half of the range
 
 }  // namespace
 
 StationsContrast contrast_over_stations(std::vector<StationStep>& steps) {
   StationsContrast best;
   std::ranges::sort(steps, {}, &StationStep::s);
-  for (std::size_t quarter = 0; quarter < kFirstStations; ++quarter) {
-    const std::size_t first = quarter * steps.size() / 4;
-    std::vector<double> sorted;
-    for (std::size_t k = first; k < steps.size(); ++k) {
-      sorted.insert(std::ranges::upper_bound(sorted, steps[k].step), steps[k].step);
-      if (sorted.size() < kMinStations) continue;
-      const double low = sorted[static_cast<std::size_t>(kOverStations * static_cast<double>(sorted.size()))];
-      const double contrast = low * std::sqrt(static_cast<double>(sorted.size()));
-      if (first == 0) best.signed_contrast = contrast;
-      if (contrast > best.contrast) best = {contrast, best.signed_contrast, steps[first].s, steps[k].s};
+  std::vector<double> sorted;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    sorted.insert(std::ranges::upper_bound(sorted, steps[k].step), steps[k].step);
+    const std::size_t count = k + 1;
+    if (count < kMinStations) continue;
+    const double low = sorted[static_cast<std::size_t>(kOverStations * static_cast<double>(count))];
+    const double contrast = low * std::sqrt(static_cast<double>(count));
+    best.signed_contrast = contrast;
+    if (contrast > best.contrast) {
+      best.contrast = contrast;
+      best.first = steps.front().s;
+      best.last = steps[k].s;
     }
   }
   return best;

@@ -18,8 +18,7 @@ struct StationsContrast {
   double first = 0, last = 0;  // the range's tangents
 };
 
-// The best range of stations: a low quantile of their steps, times the root of their number. It begins at the axis, or
-// at a quarter or half of the stations: near the axis, the light's halo hides ghosts that are bright farther out.
+// The best range of stations from the axis outwards: a low quantile of their steps, times the root of their number.
 [[nodiscard]] StationsContrast contrast_over_stations(std::vector<StationStep>& steps);
 
 // The spread of what the pictures show where there is nothing: of all candidates, nearly all of which are nothing.

@@ -56,7 +56,7 @@ OtherResiduals residuals_without(const FlareFit& fit, std::size_t ghost) {
   std::vector<MeasuredGhost> others = fit.flare().ghosts;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(ghost));
   const MeasuredFlare flare = fit.flare_of(std::move(others));
-  return {residual_stations(few_stations(fit.coarse_samples, 0.0, fit.flare().s_max), flare, fit.context),
+  return {residual_stations(few_stations(fit.coarse_samples, fit.flare().s_max), flare, fit.context),
           residual_stations(fit.held_coarse, flare, fit.context)};
 }
 

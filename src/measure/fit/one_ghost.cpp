@@ -13,10 +13,10 @@ constexpr double kSeenMargin = 1.1;
 
 }  // namespace
 
-std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, double first, double last) {
+std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, double last) {
   std::vector<FitStation> seen;
   for (const FitStation& station : stations) {
-    if (station.s >= first && station.s <= last) seen.push_back(station);
+    if (station.s <= last) seen.push_back(station);
   }
   std::vector<FitStation> few;
   const std::size_t step = (seen.size() + kStationsOfOneFit - 1) / kStationsOfOneFit;
@@ -26,8 +26,7 @@ std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, do
 
 std::optional<MeasuredGhost> fitted_alone(FlareFit& fit, const std::vector<FitStation>& all_residuals,
                                           const FoundGhost& found) {
-  std::vector<FitStation> residuals =
-      sampled_stations(few_stations(all_residuals, found.first / kSeenMargin, kSeenMargin * found.last), 2);
+  std::vector<FitStation> residuals = sampled_stations(few_stations(all_residuals, kSeenMargin * found.last), 2);
   MeasuredFlare alone = fit.flare_of({start_of_ghost(found, residuals, fit.flare().s_max)});
   const FlareProblem empty(residuals, fit.flare_of({}));
   const double before = empty.cost(Eigen::VectorXd(0));

@@ -10,8 +10,8 @@
 
 namespace contrejour::inline internal {
 
-// Evenly spaced stations, about ten, of those between these tangents of the light's angle.
-[[nodiscard]] std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, double first, double last);
+// Evenly spaced stations, about ten, of those up to this tangent of the light's angle.
+[[nodiscard]] std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, double last);
 
 // The ghost that a disc found becomes, or none if the pictures do not become likelier by more than chance. The first
 // ghost of a flare moves the optical centre. residuals: in half the size, without all other ghosts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/fit/profiles.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -19,7 +20,9 @@ constexpr std::size_t kUsualCoefficients = 2;  // where no station is held out
 constexpr int kShapeIterations = 10;
 constexpr int kMostFromResidual = 8;  // ghosts that the search after profiles may add
 constexpr double kLeastHeldGain = 8.0;  // of the cost at the stations held out, for such a ghost
-constexpr int kSamples = 3;  // one pixel of this number is fitted
+// One pixel of this number is fitted: for levels, and for outlines, which are costly where ghosts with profiles
+// overlap.
+constexpr int kLevelSamples = 3, kShapeSamples = 6;
 
 // Wide ghosts of which no edge is found add up to light that changes slowly over the picture and moves with the light,
 // or with some part of its distance. One ghost without an edge of its own stands for all of one speed.
@@ -65,8 +68,8 @@ struct ProfileFit {
   std::optional<double> least;  // cost at the stations held out
 
   explicit ProfileFit(FlareFit& state)
-      : fit(state), stations(sampled_stations(state.fine, kSamples)),
-        held(sampled_stations(state.held_fine, kSamples)) {
+      : fit(state), stations(sampled_stations(state.fine, kLevelSamples)),
+        held(sampled_stations(state.held_fine, kLevelSamples)) {
     settings.huber = fit.options.huber;
     if (!held.empty()) least = held_cost(fit, held, fit.flare(), 0.0);
   }
@@ -106,8 +109,8 @@ bool choose_profiles(ProfileFit& all) {
 // All outlines together, with the optical centre, then the levels once more.
 void fit_shapes(ProfileFit& all) {
   FlareFit& fit = all.fit;
-  const LevelFit shapes =
-      optimised(fit, sampled_stations(fit.fine, kSamples), fit.flare(), {fit.options.huber, kShapeIterations, true});
+  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples), fit.flare(),
+                                    {fit.options.huber, kShapeIterations, true});
   std::vector<FitStation> moved = all.stations;
   for (FitStation& station : moved) move_centre(station, shapes.centre_shift);
   (void)all.keep(with_best_amplitudes(moved, shapes.flare, all.settings, fit.context), shapes.centre_shift);
@@ -128,12 +131,12 @@ bool add_from_residual(ProfileFit& all, const std::vector<FitStation>& residuals
 }
 
 // The search again, in the pictures that profiles leave: ghosts beside or under brighter ones show only now. Returns
-// how many were found.
-int search_residual(ProfileFit& all) {
+// how many were found, `most` or fewer.
+int search_residual(ProfileFit& all, int most) {
   FlareFit& fit = all.fit;
   std::vector<FoundGhost> known;
   int added = 0;
-  for (int rejected = 0; rejected < kMostRejected && added < kMostFromResidual && !fit.context.cancelled();) {
+  for (int rejected = 0; rejected < kMostRejected && added < most && !fit.context.cancelled();) {
     const std::vector<FitStation> residuals = half_size_stations(residual_stations(fit.fine, fit.flare(), fit.context));
     const auto found = strongest_disc(search_pictures(residuals, usual_error(residuals)),
                                       {6.0, fit.options.min_contrast}, known, fit.context);
@@ -164,9 +167,9 @@ void fit_profiles(FlareFit& fit) {
   ProfileFit all(fit);
   if (!choose_profiles(all)) return;
   fit_shapes(all);
-  if (!all.least || fit.options.max_ghosts <= static_cast<int>(fit.result.found.size() - fit.small_found.size()))
-    return;
-  if (search_residual(all) == 0) return;
+  if (!all.least) return;
+  const auto found = static_cast<int>(fit.result.found.size() - fit.small_found.size());
+  if (search_residual(all, std::min(kMostFromResidual, fit.options.max_ghosts - found)) == 0) return;
   remove_dead(all);
   fit_shapes(all);
 }
