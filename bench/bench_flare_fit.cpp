@@ -288,6 +288,16 @@ double flux_error(const FittedFlare& fit) {
   return std::sqrt(sum / static_cast<double>(fit.stations.size()));
 }
 
+// The flux of each station, captured and fitted, as the name of a table to be written.
+void write_fluxes(const FittedFlare& fit, const std::string& file) {
+  std::ofstream out(file);
+  out << "station,s,held_out,captured,fitted,nrmse\n";
+  for (const FittedStation& k : fit.stations) {
+    out << k.station << ',' << k.s << ',' << k.held_out << ',' << k.captured << ',' << k.fitted << ',' << k.nrmse
+        << '\n';
+  }
+}
+
 struct Run {
   int stations = 61, raw_width = 1200;
   std::string kept, pictures;  // folders; empty: none
@@ -329,6 +339,7 @@ int run(const std::string& name, const Run& settings) {
       fit->centre_px.y - centre.y, geometry->centre_px.x - centre.x);
   if (!settings.pictures.empty()) {
     write_pictures(*fit, settings.pictures, name);
+    write_fluxes(*fit, settings.pictures + "/" + name + "-flux.csv");
     MeasuredFlare named = fit->flare;
     named.name = name;
     std::ofstream(settings.pictures + "/" + name + ".flare.toml") << write_flare(named);

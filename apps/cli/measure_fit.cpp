@@ -91,8 +91,6 @@ Result<void> write_fit(const FitRequest& request, const FitResult& result) {
 void print_fit_warnings(const FitRequest& request, const MergedSweep& merged, const FitResult& result) {
   print_warnings(merged.warnings);
   print_warnings(result.outcome.fit.warnings);
-  if (result.outcome.geometry.focal_length_px < 0.0)
-    print_warnings({"the light moves to the left as the angle grows: the angles' sign is swapped in the list"});
   if (request.with_comparison && !result.comparison)
     print_warnings({"there is no ghost to compare fits by, so no comparison was made"});
 }

@@ -21,6 +21,15 @@ inline GhostOutline random_outline(std::mt19937& random) {
   return o;
 }
 
+// An outline that a circle cuts, from either side.
+inline GhostOutline random_cut_outline(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  GhostOutline o = random_outline(random);
+  o.clip_radius = 0.05 + 0.3 * unit(random);
+  o.clip_centre = o.centre + (unit(random) < 0.5 ? -1.0 : 1.0) * o.clip_radius * (0.4 + 0.6 * unit(random));
+  return o;
+}
+
 inline GhostShade random_shade(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   return {0.001 + 0.05 * unit(random), 0.0005 + 0.02 * unit(random), 0.5 + 3.0 * unit(random),
@@ -50,7 +59,17 @@ inline MeasuredGhost random_ghost(std::mt19937& random) {
   return ghost;
 }
 
-// The same with a profile inside, which changes with the angle and is nowhere below 0.
+// The same, cut by a circle that moves into it as the light leaves the axis.
+inline MeasuredGhost random_cut_ghost(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  MeasuredGhost ghost = random_ghost(random);
+  const double radius = ghost.half_width(0.0);
+  ghost.clip_centre.coefficients = {ghost.centre.coefficients[0] + (2.0 + unit(random)) * radius, 0.1 * unit(random)};
+  ghost.clip_radius.coefficients = {(1.0 + 0.2 * unit(random)) * radius, 0.02 * unit(random)};
+  return ghost;
+}
+
+// An uncut ghost with a profile inside, which changes with the angle and is nowhere below 0.
 inline MeasuredGhost random_ghost_with_profile(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   MeasuredGhost ghost = random_ghost(random);

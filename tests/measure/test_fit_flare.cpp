@@ -150,7 +150,38 @@ TEST_CASE("fit flare: angles with the sign swapped give the same flare [slow]") 
   REQUIRE(as_is.has_value());
   REQUIRE(fit.has_value());
   REQUIRE(fit->flare.ghosts.size() == as_is->flare.ghosts.size());
+  CHECK(as_is->warnings.empty());
+  REQUIRE(fit->warnings.size() == 1);
+  CHECK(fit->warnings[0].find("sign is swapped") != std::string::npos);
   CHECK(fit->flare.ghosts.back().centre(0.1) == doctest::Approx(as_is->flare.ghosts.back().centre(0.1)).epsilon(1e-6));
+}
+
+TEST_CASE("fit flare: a core that every exposure saturates is left out, said if it is large, and survived [slow]") {
+  const Capture& capture = tessar();
+  Capture saturated = capture;
+  std::size_t marked = 0;
+  for (CapturedImage& picture : saturated.pictures) {
+    // All but the dimmer half of the ghost: it stands out of everything but the light's own image.
+    std::vector<float> values(picture.rate.pixels.begin(), picture.rate.pixels.end());
+    std::ranges::sort(values);
+    const float level = 0.5F * values[values.size() * 97 / 100];
+    for (std::size_t k = 0; k < picture.rate.pixels.size(); ++k) {
+      if (!(picture.rate.pixels[k] > level)) continue;
+      picture.valid.pixels[k] = 0.0F;
+      picture.rate.pixels[k] = level;  // the sensor's end
+      ++marked;
+    }
+  }
+  FlareFitOptions options = quick();
+  options.max_width = 80;
+  const auto fit = fit_flare(saturated.sweep(), capture.geometry, options);
+  REQUIRE_MESSAGE(fit.has_value(), fit.error().to_string());
+  CHECK(marked > 1000);
+  for (const MeasuredGhost& ghost : fit->flare.ghosts)
+    for (const AngleCurve& level : ghost.inside) CHECK(std::isfinite(level(0.1)));
+  CHECK(check_flare(fit->flare).has_value());
+  CHECK(std::ranges::any_of(fit->warnings,
+                            [](const std::string& w) { return w.find("saturated") != std::string::npos; }));
 }
 
 TEST_CASE("fit flare: pictures without a ghost give none, and a warning") {

@@ -10,16 +10,21 @@
 #include "measure/random_ghosts.h"
 
 using namespace contrejour;
+using contrejour::test::random_cut_ghost;
 using contrejour::test::random_ghost;
 using contrejour::test::random_ghost_with_profile;
 
 namespace {
 
-MeasuredFlare planted(int ghosts, unsigned seed, bool with_profiles = false) {
+enum class Kind { Plain, Cut, WithProfile };
+
+MeasuredFlare planted(int ghosts, unsigned seed, Kind kind = Kind::Plain) {
   std::mt19937 random(seed);
   MeasuredFlare flare{"planted", "", 0.5, std::nullopt, {}};
   for (int k = 0; k < ghosts; ++k) {
-    MeasuredGhost ghost = with_profiles ? random_ghost_with_profile(random) : random_ghost(random);
+    MeasuredGhost ghost = kind == Kind::WithProfile ? random_ghost_with_profile(random)
+                          : kind == Kind::Cut       ? random_cut_ghost(random)
+                                                    : random_ghost(random);
     ghost.last = 0.5;
     ghost.width_in.coefficients[0] += 0.005;  // at least a pixel of these small pictures
     ghost.width_out.coefficients[0] += 0.005;
@@ -59,12 +64,14 @@ std::vector<FitStation> stations_of(const MeasuredFlare& flare, int count, doubl
 }  // namespace
 
 TEST_CASE("flare problem: gradients agree with central differences to 1e-5") {
-  for (const auto& [huber, with_profiles] : {std::pair{1e9, false}, {2.0, false}, {1e9, true}}) {
-    const MeasuredFlare flare = planted(2, 2, with_profiles);
+  for (const auto& [huber, kind] :
+       {std::pair{1e9, Kind::Plain}, {2.0, Kind::Plain}, {1e9, Kind::Cut}, {1e9, Kind::WithProfile}}) {
+    const MeasuredFlare flare = planted(2, 2, kind);
     const auto stations = stations_of(flare, 3, 1.0, true);
     FlareProblem problem(stations, flare);
     problem.huber = huber;
-    problem.with_centre = !with_profiles;  // a profile's own change with the angle is left out of the centre's
+    problem.with_centre =
+        kind != Kind::WithProfile;  // a profile's own change with the angle is left out of the centre's
     Eigen::VectorXd at = problem.layout.pack(flare);
     if (problem.with_centre) {
       at.conservativeResize(at.size() + 1);
@@ -111,7 +118,7 @@ TEST_CASE("flare problem: a planted flare is found from a start beside it [slow]
 }
 
 TEST_CASE("amplitudes: the levels of given outlines are found from any start, and none is below 0") {
-  const MeasuredFlare truth = planted(3, 4, true);
+  const MeasuredFlare truth = planted(3, 4, Kind::WithProfile);
   const auto stations = stations_of(truth, 8, 0.5, true);
   MeasuredFlare start = truth;
   for (MeasuredGhost& ghost : start.ghosts) {

@@ -12,6 +12,7 @@
 #include "measure/random_ghosts.h"
 
 using namespace contrejour;
+using contrejour::test::random_cut_outline;
 using contrejour::test::random_outline;
 using contrejour::test::random_shade;
 
@@ -52,8 +53,8 @@ Vec2 random_point(std::mt19937& random, const GhostOutline& outline) {
 }
 
 GhostOutline with(GhostOutline outline, std::size_t parameter, double by) {
-  double* members[] = {&outline.centre,      &outline.left,       &outline.right,
-                       &outline.half_height, &outline.round_left, &outline.round_right};
+  double* members[] = {&outline.centre,     &outline.left,        &outline.right,       &outline.half_height,
+                       &outline.round_left, &outline.round_right, &outline.clip_centre, &outline.clip_radius};
   *members[parameter] += by;
   return outline;
 }
@@ -97,19 +98,42 @@ TEST_CASE("ghost outline: distances agree with dense sampling, signs with windin
   }
 }
 
+TEST_CASE("ghost outline: a circle that cuts leaves what lies within both, at the distance of the nearer border") {
+  std::mt19937 random(8);
+  int cut = 0, inside = 0;
+  for (int k = 0; k < 300; ++k) {
+    const GhostOutline outline = random_cut_outline(random);
+    GhostOutline whole = outline;
+    whole.clip_radius = 0.0;
+    const Vec2 point = random_point(random, outline);
+    const double of_circle = length(point - Vec2{outline.clip_centre, 0.0}) - outline.clip_radius;
+    const double of_outline = nearest_point(whole, point).distance;
+    const OutlinePoint nearest = nearest_point(outline, point);
+    CHECK(nearest.distance == std::max(of_circle, of_outline));
+    CHECK(nearest.is_on_clip == (of_circle > of_outline));
+    CHECK(length(nearest.normal) == doctest::Approx(1.0));
+    cut += of_circle > of_outline ? 1 : 0;
+    inside += nearest.distance < 0.0 ? 1 : 0;
+  }
+  CHECK(cut > 50);
+  CHECK(inside > 20);
+}
+
 TEST_CASE("ghost outline: the distance's gradient agrees with central differences to 1e-5") {
   constexpr double kStep = 1e-6;
   std::mt19937 random(5);
   int compared = 0;
   for (int k = 0; k < 400; ++k) {
-    const GhostOutline outline = random_outline(random);
+    const GhostOutline outline = k % 2 == 0 ? random_outline(random) : random_cut_outline(random);
     const Vec2 point = random_point(random, outline);
     const OutlinePoint nearest = nearest_point(outline, point);
     const auto gradient = distance_gradient(outline, nearest);
     for (std::size_t p = 0; p < kOutlineParameters; ++p) {
       const OutlinePoint more = nearest_point(with(outline, p, kStep), point);
       const OutlinePoint less = nearest_point(with(outline, p, -kStep), point);
+      if (p >= kCubicParameters && outline.clip_radius == 0.0) continue;
       // Where the nearest point jumps, as it does on the medial axis, there is no derivative.
+      if (more.is_on_clip != less.is_on_clip) continue;
       if (more.is_right != less.is_right || std::abs(more.t - less.t) > 1e-3) continue;
       const double difference = (more.distance - less.distance) / (2.0 * kStep);
       CHECK(gradient[p] == doctest::Approx(difference).epsilon(1e-5).scale(1.0));

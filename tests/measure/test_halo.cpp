@@ -49,3 +49,26 @@ TEST_CASE("halo: what moves with the light is subtracted, a ghost in it stays") 
     CHECK(static_cast<double>(first.rate.at(90, 42, c)) == doctest::Approx(50.0).epsilon(0.1 * level / 50.0));
   }
 }
+
+TEST_CASE("halo: its level changes with the angle, and by a little from station to station") {
+  const auto level_of = [](double s, double deviation) { return (1.0 - 2.0 * s * s) * deviation; };
+  std::vector<FitStation> stations;
+  std::vector<Vec2> lights;
+  for (int k = 0; k < 9; ++k) {
+    lights.push_back({20.3 + 10.0 * k, 37.8});
+    FitStation station = station_with_light_at(lights.back());
+    station.s = std::abs(0.1 * (k - 4));
+    for (float& v : station.rate.pixels) v *= static_cast<float>(level_of(station.s, k == 2 ? 1.02 : 1.0));
+    stations.push_back(std::move(station));
+  }
+  const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
+  CHECK(halo.scale(0.0) == 1.0);
+  for (const double s : {0.2, 0.4}) CHECK(halo.scale(s) == doctest::Approx(level_of(s, 1.0)).epsilon(0.01));
+  CHECK(halo_deviation(halo, stations[2], lights[2], 6.0) == doctest::Approx(1.02).epsilon(0.005));
+  CHECK(halo_deviation(halo, stations[5], lights[5], 6.0) == doctest::Approx(1.0).epsilon(0.005));
+  // What is left at the largest angle is far less than a profile that were the same everywhere would leave.
+  FitStation last = stations.back();
+  subtract_halo(last, halo, lights.back(), 6.0, halo_deviation(halo, last, lights.back(), 6.0));
+  const double r = std::hypot(110.5 - lights.back().x, 37.5 - lights.back().y);
+  CHECK(std::abs(static_cast<double>(last.rate.at(110, 37, 1))) < 0.05 * halo_at(r, 1) * level_of(0.4, 1.0));
+}

@@ -11,6 +11,7 @@
 #include "measure/random_ghosts.h"
 
 using namespace contrejour;
+using contrejour::test::random_cut_ghost;
 using contrejour::test::random_ghost;
 using contrejour::test::random_ghost_with_profile;
 
@@ -144,6 +145,26 @@ TEST_CASE("measured flare: errors name file and line") {
   CHECK(error((head + "half_field = [1]\n").c_str()).find("a.toml:3:") == 0);
   CHECK(error((head + "half_field = [1, 0]\n").c_str()).find("half_field") != std::string::npos);
   CHECK(error((head + "[[ghosts]]\nlast = 0.4\ncentre = [1e10]\n").c_str()).find("exceeds") != std::string::npos);
+}
+
+TEST_CASE("measured flare: circles that cut ghosts are kept and drawn") {
+  std::mt19937 random(11);
+  MeasuredFlare flare = random_flare(1);
+  for (int k = 0; k < 4; ++k) flare.ghosts.push_back(random_cut_ghost(random));
+  const std::string text = write_flare(flare);
+  const auto again = read_flare(text, "a.flare.toml");
+  REQUIRE_MESSAGE(again.has_value(), again.error().to_string());
+  CHECK(write_flare(*again) == text);
+  MeasuredFlare whole = flare;
+  for (MeasuredGhost& ghost : whole.ghosts) ghost.clip_radius.coefficients.clear();
+  for (const Vec2 position : {Vec2{0.3, 0.0}, Vec2{-0.2, 0.25}}) {
+    const FlareLight light{position, {1e5, 2e5, 5e4}};
+    const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+    REQUIRE(image.has_value());
+    const Image plain = plain_picture(flare, light, kFrame);
+    CHECK(largest_difference(*image, plain) < 2e-3 * largest(plain));
+    CHECK(largest_difference(*image, plain_picture(whole, light, kFrame)) > 0.1 * largest(plain));
+  }
 }
 
 TEST_CASE("measured flare: pictures agree with a plain evaluation of every pixel") {

@@ -84,7 +84,7 @@ struct FittedFlare {
   Vec2 centre_px;
   // The start of each ghost of the flare but its first, which is the light of ghosts larger than the picture ("veil"),
   // and its last ones without an edge, which stand for ghosts that are not found ("diffuse, ..."). Small ghosts come
-  // last of those that are found.
+  // after those with an edge, and last those that were found only in what the others leave.
   std::vector<FoundGhost> found;
   std::vector<FitProgress> progress;  // of the last fit
   double image_evaluations = 0;  // in all

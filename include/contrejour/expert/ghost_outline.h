@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ghost of a measured flare, for a light at one angle: its outline of four cubic Bezier segments, the distance of a
-// point from it, and its shade as a function of that distance.
-// Source: walch2018 3.2, figures 5 and 6. Differs: a side's control length is a fraction of the half axes it joins, so
-// that an ellipse stays one; a pixel has the mean of the shade over its width, so that sharp borders do not alias.
-// Units: x along the line from the optical centre to the light, y perpendicular to it, both as tangents of angles
-// (pixels / focal length in pixels). The outline is symmetric about y = 0. Accuracy: nearest points are minima to 1e-12
-// of the outline's size. Thread-safety: pure functions.
+// One ghost of a measured flare, for a light at one angle: its outline of four cubic Bezier segments, which a circle
+// may cut, the distance of a point from it, and its shade as a function of that distance. Source: walch2018 3.2,
+// figures 5 and 6. Differs: a side's control length is a fraction of the half axes it joins, so that an ellipse stays
+// one; a pixel has the mean of the shade over its width, so that sharp borders do not alias; a second aperture of the
+// lens may cut the outline, so that a segment or a lune is left. Units: x along the line from the optical centre to the
+// light, y perpendicular to it, both as tangents of angles (pixels / focal length in pixels). The outline is symmetric
+// about y = 0. Accuracy: nearest points are minima to 1e-12 of the outline's size. Where a circle cuts the outline, the
+// distance is the larger of both: outside a corner, it is below the true one. Thread-safety: pure functions.
 #pragma once
 
 #include <array>
@@ -23,8 +24,11 @@ struct GhostOutline {
   double left = 0, right = 0;  // distances from the centre to the ends on the axis, > 0
   double half_height = 0;  // > 0
   double round_left = kEllipseRoundness, round_right = kEllipseRoundness;  // 0.05 ... 1: a rhombus to a rectangle
+  // Only what lies within this circle is inside. Its centre is on the axis, not relative to the outline's; radius 0: no
+  // circle.
+  double clip_centre = 0, clip_radius = 0;
 };
-inline constexpr std::size_t kOutlineParameters = 6;  // in the order of GhostOutline's members
+inline constexpr std::size_t kOutlineParameters = 8;  // in the order of GhostOutline's members
 
 // The point of an outline nearest to another.
 struct OutlinePoint {
@@ -33,6 +37,7 @@ struct OutlinePoint {
   bool is_right = false;  // on the right side
   double t = 0;  // parameter of the cubic on that side, from left to right
   bool is_below = false;  // the other point lies below the axis
+  bool is_on_clip = false;  // on the circle that cuts the outline: neither side nor parameter count
 };
 [[nodiscard]] CONTREJOUR_API OutlinePoint nearest_point(const GhostOutline& outline, Vec2 point);
 

@@ -48,6 +48,8 @@ struct MeasuredGhost {
   AngleCurve half_width, skew{Parity::Odd, {}};
   AngleCurve half_height;
   AngleCurve roundness{Parity::Even, {kEllipseRoundness}}, roundness_skew{Parity::Odd, {}};
+  // The circle that cuts the outline, as another aperture of the lens does; without coefficients: none.
+  AngleCurve clip_centre{Parity::Odd, {}}, clip_radius;
   // How far the border's level reaches: its integral over the distance, over the level; and the exponents of its fall.
   // A side's fade is width * (slope + 1).
   AngleCurve width_in, width_out;

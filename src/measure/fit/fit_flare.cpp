@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/tasks.h"
 #include "measure/find/find_ghosts.h"
+#include "measure/fit/clipped_ghosts.h"
 #include "measure/fit/flare_fit_state.h"
 #include "measure/fit/ghost_start.h"
+#include "measure/fit/one_ghost.h"
 #include "measure/fit/profiles.h"
 #include "measure/fit/small_ghosts.h"
 #include "measure/fit/station_figures.h"
@@ -22,8 +26,6 @@ constexpr double kHaloQuantile = 0.35, kMedian = 0.5;
 constexpr int kLastIterations = 25;
 constexpr std::size_t kTogetherEvery = 3;  // ghosts, after which all are fitted together
 constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
-constexpr std::size_t kStationsOfOneFit = 10;  // to which a ghost is fitted alone
-constexpr double kSeenMargin = 1.1;
 constexpr std::size_t kFewestToHoldOut = 10;  // stations in all, from which on some are held out
 
 void fit_together(FlareFit& fit, const std::vector<FitStation>& stations, double huber, int iterations) {
@@ -32,37 +34,12 @@ void fit_together(FlareFit& fit, const std::vector<FitStation>& stations, double
   fit.flare() = l.flare;
 }
 
-// A few stations, evenly spaced among those where the disc was seen.
-std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, const FoundGhost& found) {
-  std::vector<FitStation> seen;
-  for (const FitStation& station : stations) {
-    if (station.s <= kSeenMargin * found.last) seen.push_back(station);
-  }
-  std::vector<FitStation> few;
-  const std::size_t step = (seen.size() + kStationsOfOneFit - 1) / kStationsOfOneFit;
-  for (std::size_t k = 0; k < seen.size(); k += std::max<std::size_t>(step, 1)) few.push_back(seen[k]);
-  return few;
-}
-
-// Fits a ghost to what the others leave, and keeps it if the pictures become likelier by more than chance.
-bool add_ghost(FlareFit& fit, const std::vector<FitStation>& all_residuals, const FoundGhost& found) {
-  std::vector<FitStation> residuals = sampled_stations(few_stations(all_residuals, found), 2);
-  MeasuredFlare alone = fit.flare();
-  alone.ghosts = {start_of_ghost(found, residuals, alone.s_max)};
-  alone.ghosts[0].name = fmt::format("{}", fit.flare().ghosts.size());
-  const FlareProblem empty(residuals, fit.flare_of({}));
-  const double before = empty.cost(Eigen::VectorXd(0));
-  LevelFit best = optimised(fit, residuals, alone, {kNoHuber, kAloneIterations});
-  if (fit.result.found.empty() && fit.small.empty()) {  // the first ghost says where the optical centre is
-    best = optimised(fit, residuals, best.flare, {kFarHuber, kAloneIterations, true});
-    move_all(fit, best.centre_shift);
-    for (FitStation& station : residuals) move_centre(station, best.centre_shift);
-  }
-  for (const double huber : {kFarHuber, fit.options.huber})
-    best = optimised(fit, residuals, best.flare, {huber, kAloneIterations});
-  const auto unknowns = static_cast<double>(ParameterLayout(best.flare).size());
-  if (fit.context.cancelled() || before - best.cost < kLeastGain * unknowns) return false;
-  fit.flare().ghosts.push_back(best.flare.ghosts[0]);
+// Adds the ghost that a disc becomes to the flare.
+bool add_ghost(FlareFit& fit, const std::vector<FitStation>& residuals, const FoundGhost& found) {
+  std::optional<MeasuredGhost> ghost = fitted_alone(fit, residuals, found);
+  if (!ghost) return false;
+  ghost->name = fmt::format("{}", fit.flare().ghosts.size());
+  fit.flare().ghosts.push_back(std::move(*ghost));
   return true;
 }
 
@@ -102,8 +79,9 @@ std::vector<FittedStation> judged(const FlareFit& fit, bool held_out, ClearSums&
     one.held_out = held_out;
     one.s = station.frame.to_light.x < 0.0 ? -station.s : station.s;
     Image model = model_of_station(fit.result.flare, station);
-    one.captured = flux_of(station.rate, station);
-    one.fitted = flux_of(model, station);
+    const std::vector<bool> shown = shows_flux(station, fit.options.model_error);
+    one.captured = flux_of(station.rate, shown);
+    one.fitted = flux_of(model, shown);
     FitStation modelled = station;
     modelled.rate = model;
     parts[k] = clear_sums(half_size_station(station), half_size_station(modelled).rate);
@@ -209,6 +187,10 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
         fmt::format("{:.0f} per cent of the pixels are saturated in every exposure: take shorter ones",
                     100.0 * fit.sweep.saturated));
   }
+  if (geometry.focal_length_px < 0.0) {
+    fit.result.warnings.emplace_back(
+        "the light moves to the left as the angle grows: the angles' sign is swapped in the list");
+  }
   find_small_ghosts(fit, (options.max_small_ghosts + 1) / 2);
   find_all(fit);
   find_small_ghosts(fit, options.max_small_ghosts);
@@ -218,6 +200,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   separate_halo(fit, kMedian);
   fit_together(fit, fit.coarse_samples, options.huber, kTogetherIterations);
   choose_degree(fit);
+  fit_clipping(fit);
   fit_together(fit, fit.fine_samples, options.huber, kLastIterations);
   finish_small_ghosts(fit);
   add_small_ghosts(fit);

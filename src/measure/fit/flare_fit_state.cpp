@@ -9,6 +9,7 @@
 #include "base/tasks.h"
 #include "measure/fit/halo.h"
 #include "measure/fit/station_figures.h"
+#include "measure/model/flare_curves.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kConverged = 2e-4;
 constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6;
 // The least half axis of a small ghost: the mean over a pixel's width holds for borders that are straight over it.
 constexpr double kLeastHalfAxis_px = 0.6;
+constexpr double kCutPart = 0.5;  // of a cut ghost's radius: how far each of its coefficients may move in one fit
 constexpr double kNearPart = 0.35;  // of its radius: how far a small ghost may move in one fit, beside a pixel
 
 Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
@@ -48,6 +50,20 @@ void keep_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresProbl
   }
 }
 
+// A ghost that a circle cuts stays near its start, too: a circle that leaves nothing of it would leave its curves free.
+void keep_cut_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
+  constexpr std::array<std::size_t, 6> kPlace{0, 1, 2, 3, kClipCentre, kClipRadius};
+  const Eigen::VectorXd start = problem.layout.pack(problem.flare);
+  const double most = kCutPart * problem.flare.ghosts[ghost].half_height(0.0);
+  for (const std::size_t curve : kPlace) {
+    const ParameterLayout::CurveTerms terms = problem.layout.curve_terms(ghost, curve, 0.0);
+    for (Eigen::Index at = terms.first; at < terms.first + static_cast<Eigen::Index>(terms.terms.size()); ++at) {
+      squares.lower[at] = std::max(squares.lower[at], start[at] - most);
+      squares.upper[at] = std::min(squares.upper[at], start[at] + most);
+    }
+  }
+}
+
 // Bounds of fades and of small ghosts' sizes, relative to the picture's pixels.
 void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& squares) {
   constexpr std::size_t kWidthIn = 6, kWidthOut = 7;  // of curves_of()
@@ -60,7 +76,16 @@ void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& s
     const double widest = kWidestFade_px * pixel + kWidestFade * std::abs(ghost.centre.coefficients.front());
     squares.upper[constant_of(kWidthOut)] = small ? std::max(widest, kWidestOfSmall * half_width) : widest;
     if (small) keep_near(problem, k, squares);
+    if (!ghost.clip_radius.coefficients.empty()) keep_cut_near(problem, k, squares);
   }
+}
+
+std::vector<double> deviations_of(const HaloProfile& halo, const std::vector<FitStation>& residuals,
+                                  const SweepStations& sweep) {
+  std::vector<double> deviations;
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    deviations.push_back(halo_deviation(halo, residuals[k], sweep.lights_px[k], sweep.masked_px));
+  return deviations;
 }
 
 }  // namespace
@@ -110,11 +135,13 @@ void subtract_small_ghosts(FlareFit& fit) {
 void separate_halo(FlareFit& fit, double quantile) {
   std::vector<MeasuredGhost> all = fit.flare().ghosts;
   all.insert(all.end(), fit.small.begin(), fit.small.end());
-  const std::vector<FitStation> residuals =
-      residual_stations(fit.sweep.stations, fit.flare_of(std::move(all)), fit.context);
+  const MeasuredFlare flare = fit.flare_of(std::move(all));
+  const std::vector<FitStation> residuals = residual_stations(fit.sweep.stations, flare, fit.context);
   const HaloProfile halo = halo_of(residuals, fit.sweep.lights_px, {fit.sweep.masked_px, quantile});
-  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error);
-  fit.held_fine = stations_without(fit.held_out, halo, fit.options.model_error);
+  const std::vector<FitStation> held_residuals = residual_stations(fit.held_out.stations, flare, fit.context);
+  fit.fine = stations_without(fit.sweep, halo, fit.options.model_error, deviations_of(halo, residuals, fit.sweep));
+  fit.held_fine =
+      stations_without(fit.held_out, halo, fit.options.model_error, deviations_of(halo, held_residuals, fit.held_out));
   subtract_small_ghosts(fit);
 }
 

@@ -208,7 +208,7 @@ CurveUnknowns unknowns_of(const FlareProblem& problem, const MeasuredFlare& flar
   if (problem.with_centre) {
     const double by_s = curves_of(flare.ghosts[ghost])[curve]->derivative(place.s);
     all.index.push_back(problem.layout.size());
-    all.term.push_back(place.frame.to_light.x * ((curve == 0 ? 1.0 : 0.0) - by_s));
+    all.term.push_back(place.frame.to_light.x * ((curve == 0 || curve == kClipCentre ? 1.0 : 0.0) - by_s));
   }
   return all;
 }

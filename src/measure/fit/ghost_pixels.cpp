@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measure/model/flare_curves.h"
+#include "measure/model/outline_cubic.h"
+
 namespace contrejour::inline internal {
 namespace {
 
@@ -18,8 +21,8 @@ PixelRange range_of(double low, double high, int size) {
 }
 
 // Derivatives with respect to centre, half width, skew, half height, roundness, its skew, widths and slopes of the
-// shade. A half width widens both sides, a skew moves the left side inwards and the right one outwards; a fade is its
-// width times slope + 1.
+// shade, and the circle that cuts the outline. A half width widens both sides, a skew moves the left side inwards and
+// the right one outwards; a fade is its width times slope + 1.
 std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, const OutlinePoint& nearest,
                                                    double pixel) {
   const auto outline = distance_gradient(ghost.outline, nearest);
@@ -36,6 +39,10 @@ std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, co
     const ShadeWeights by_fade = shade.by_shade[side], by_slope = shade.by_shade[2 + side];
     by_shape[6 + side] = {(slope + 1.0) * by_fade.border, (slope + 1.0) * by_fade.inside};
     by_shape[8 + side] = {by_slope.border + width * by_fade.border, by_slope.inside + width * by_fade.inside};
+  }
+  for (const std::size_t k : {kClipCentre, kClipRadius}) {
+    const double distance = outline[kCubicParameters + k - kClipCentre];
+    by_shape[k] = {shade.by_distance.border * distance, shade.by_distance.inside * distance};
   }
   return by_shape;
 }

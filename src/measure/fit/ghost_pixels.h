@@ -11,7 +11,7 @@
 
 namespace contrejour::inline internal {
 
-inline constexpr std::size_t kShapeCurves = 10;  // of curves_of(): all but the levels
+inline constexpr std::size_t kShapeCurves = 12;  // of curves_of(): all but the levels
 
 inline constexpr std::size_t kPlaceCurves = 4;   // of these, those on which a point's place in a ghost depends
 
@@ -28,7 +28,7 @@ struct StationFrame {
 struct GhostPixel {
   std::uint32_t index = 0;  // y * width + x
   ShadeWeights weights;
-  std::array<ShadeWeights, kShapeCurves> by_shape;  // derivatives with respect to the values of curves 0..9
+  std::array<ShadeWeights, kShapeCurves> by_shape;  // derivatives with respect to the values of curves 0..11
   Rgb inside{};  // the level that the inside's weight multiplies: the ghost's, with its profile
   std::array<Rgb, kPlaceCurves> inside_by_shape{};  // derivatives with respect to the values of curves 0..3
 };

@@ -11,8 +11,8 @@ namespace contrejour::inline internal {
 namespace {
 
 // Coefficients of each curve at the lowest degree, in the order of curves_of().
-constexpr std::array<std::size_t, kGhostCurves> kMinBands{2, 2, 1, 2, 1, 0, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2};
-constexpr std::array<std::size_t, kGhostCurves> kPerDegree{1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1};
+constexpr std::array<std::size_t, kGhostCurves> kMinBands{2, 2, 1, 2, 1, 0, 1, 1, 1, 1, 0, 0, 2, 2, 2, 2, 2, 2};
+constexpr std::array<std::size_t, kGhostCurves> kPerDegree{1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
 constexpr double kStartWidth_px = 1.0, kStartWidth = 0.03;  // of the radius: edges must be felt from a distance
 constexpr double kRing = 1.25;  // outer over inner radius of the ring around a disc
 constexpr double kRangeMargin = 1.1;
@@ -63,6 +63,7 @@ double area_scale(const FitStation& station) {
 MeasuredGhost with_degree(MeasuredGhost ghost, int degree) {
   const auto curves = curves_of(ghost);
   for (std::size_t k = 0; k < kGhostCurves; ++k) {
+    if (is_clip_curve(k)) continue;
     curves[k]->coefficients.resize(kMinBands[k] + static_cast<std::size_t>(degree) * kPerDegree[k], 0.0);
   }
   return ghost;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <Eigen/Dense>
 
 namespace contrejour::inline internal {
 namespace {
@@ -12,6 +15,13 @@ constexpr double kUncertainty = 0.01;  // of the halo, relative: it is not quite
 constexpr double kOffset_px = 0.4;  // colours of a Bayer block are not at one place
 constexpr std::size_t kFewPixels = 12;
 constexpr double kFewStations = 0.2;  // of all stations: a distance that fewer show has no level
+
+// How the level changes with the angle is measured where the halo is far brighter than ghosts: up to this multiple of
+// the mask's radius.
+constexpr double kNear = 4.0;
+constexpr std::size_t kFewestForChange = 7;  // stations
+constexpr double kLeastScale = 0.05;
+constexpr double kMostDeviation = 0.05;  // of one station from the others
 
 using Profile = std::vector<double>;  // a level of each ring; NaN: too few pixels
 
@@ -52,7 +62,55 @@ std::array<Profile, 3> profiles_of(const FitStation& station, Vec2 light_px, std
   return profiles;
 }
 
+// A station's usual level near the light over that of the profile; NaN where too few pixels show it.
+double level_over(const HaloProfile& halo, const FitStation& station, Vec2 light_px, double masked_px) {
+  std::vector<double> ratios;
+  const double reach = kNear * masked_px;
+  for (int y = std::max(0, static_cast<int>(light_px.y - reach)); y < station.rate.height && y < light_px.y + reach;
+       ++y) {
+    for (int x = std::max(0, static_cast<int>(light_px.x - reach)); x < station.rate.width && x < light_px.x + reach;
+         ++x) {
+      const double r = distance_of(x, y, light_px);
+      if (r < masked_px || r > reach) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double level = halo.at(r, static_cast<std::size_t>(c));
+        if (level > 0.0 && station.weight.at(x, y, c) > 0.0F)
+          ratios.push_back(static_cast<double>(station.rate.at(x, y, c)) / level);
+      }
+    }
+  }
+  return ratios.size() < kFewPixels ? std::nan("") : quantile_of(ratios, 0.5);
+}
+
+// Fits the change of the level with the angle to all stations, and refers the profile to the axis.
+void fit_change(std::span<const FitStation> stations, std::span<const Vec2> lights_px, double masked_px,
+                HaloProfile& halo) {
+  std::vector<std::pair<double, double>> levels;  // s, level
+  for (std::size_t k = 0; k < stations.size(); ++k) {
+    const double level = level_over(halo, stations[k], lights_px[k], masked_px);
+    if (std::isfinite(level)) levels.emplace_back(stations[k].s, level);
+  }
+  if (levels.size() < kFewestForChange) return;
+  Eigen::MatrixXd powers(static_cast<Eigen::Index>(levels.size()), 3);
+  Eigen::VectorXd right(powers.rows());
+  for (Eigen::Index k = 0; k < powers.rows(); ++k) {
+    const auto& [s, level] = levels[static_cast<std::size_t>(k)];
+    powers.row(k) << 1.0, s * s, s * s * s * s;
+    right[k] = level;
+  }
+  const Eigen::Vector3d curve = powers.colPivHouseholderQr().solve(right);
+  if (!(curve[0] > 0.0)) return;
+  halo.change = {curve[1] / curve[0], curve[2] / curve[0]};
+  for (auto& channel : halo.level)
+    for (double& level : channel) level *= curve[0];
+}
+
 }  // namespace
+
+double HaloProfile::scale(double s) const {
+  const double s2 = s * s;
+  return std::max(1.0 + s2 * (change[0] + s2 * change[1]), kLeastScale);
+}
 
 double HaloProfile::at(double r_px, std::size_t channel) const {
   if (radius_px.empty()) return 0.0;
@@ -90,22 +148,29 @@ HaloProfile halo_of(std::span<const FitStation> stations, std::span<const Vec2> 
     const double farthest = level.empty() ? 0.0 : level.back();
     for (double& value : level) value -= farthest;
   }
+  fit_change(stations, lights_px, settings.masked_px, halo);
   return halo;
 }
 
-void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px) {
+double halo_deviation(const HaloProfile& halo, const FitStation& residual, Vec2 light_px, double masked_px) {
+  const double level = level_over(halo, residual, light_px, masked_px) / halo.scale(residual.s);
+  return std::isfinite(level) ? std::clamp(level, 1.0 - kMostDeviation, 1.0 + kMostDeviation) : 1.0;
+}
+
+void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px, double factor) {
+  const double scale = factor * halo.scale(station.s);
   for (int y = 0; y < station.rate.height; ++y) {
     for (int x = 0; x < station.rate.width; ++x) {
       const double r = distance_of(x, y, light_px);
       for (int c = 0; c < 3; ++c) {
-        const double level = halo.at(r, static_cast<std::size_t>(c));
+        const double level = scale * halo.at(r, static_cast<std::size_t>(c));
         float& weight = station.weight.at(x, y, c);
         station.rate.at(x, y, c) -= static_cast<float>(level);
         if (r < masked_px) weight = 0.0F;
         if (weight > 0.0F) {
           const double slope =
               halo.at(r - 0.5, static_cast<std::size_t>(c)) - halo.at(r + 0.5, static_cast<std::size_t>(c));
-          const double uncertain = kUncertainty * level + kOffset_px * slope;
+          const double uncertain = kUncertainty * level + kOffset_px * scale * slope;
           weight = static_cast<float>(1.0 / (1.0 / static_cast<double>(weight) + uncertain * uncertain));
         }
       }

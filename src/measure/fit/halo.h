@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light scattered about a light's own image, which ghosts are fitted without. It moves with the light, as a ghost of
-// speed 1 would, and is the same at every station; ghosts of other speeds leave each of its places at some station.
+// speed 1 would, and has the same form at every station; ghosts of other speeds leave each of its places at some
+// station. Its level over the light's changes with the angle, as vignetting makes the pupil smaller.
 // Thread-safety: pure functions.
 #pragma once
 
@@ -19,7 +20,11 @@ struct HaloProfile {
   std::vector<double> radius_px;
   std::array<std::vector<double>, 3> level;
 
+  // The level on the axis, and by how much it is multiplied for a light at s: 1 + change[0] s^2 + change[1] s^4.
+  std::array<double, 2> change{};
+
   [[nodiscard]] double at(double r_px, std::size_t channel) const;
+  [[nodiscard]] double scale(double s) const;
 };
 
 struct HaloSettings {
@@ -33,8 +38,14 @@ struct HaloSettings {
 [[nodiscard]] HaloProfile halo_of(std::span<const FitStation> stations, std::span<const Vec2> lights_px,
                                   const HaloSettings& settings);
 
-// Subtracts the halo, and adds what it leaves uncertain to the variance. Pixels within `masked_px` of the light get no
-// weight.
-void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px);
+// By how much a station's halo, once ghosts are subtracted, is brighter than the profile has it at this angle, within a
+// few per cent: the flux of the light's own image, which pictures are relative to, is measured in a short exposure with
+// an error of its own. 1 where too little of it is seen.
+[[nodiscard]] double halo_deviation(const HaloProfile& halo, const FitStation& residual, Vec2 light_px,
+                                    double masked_px);
+
+// Subtracts the halo times this factor, and adds what it leaves uncertain to the variance. Pixels within `masked_px` of
+// the light get no weight.
+void subtract_halo(FitStation& station, const HaloProfile& halo, Vec2 light_px, double masked_px, double factor = 1.0);
 
 }  // namespace contrejour::inline internal

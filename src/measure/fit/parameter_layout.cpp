@@ -12,11 +12,12 @@ constexpr double kLowestSlope = 0.2, kHighestSlope = 12.0;
 constexpr double kLowestRoundness = 0.2, kHighestRoundness = 0.9;
 constexpr std::array<double, kGhostCurves> kLower{-kNone, kMinSize, -kNone,   kMinSize,     kLowestRoundness,
                                                   -kNone, kMinSize, kMinSize, kLowestSlope, kLowestSlope,
-                                                  0.0,    0.0,      0.0,      0.0,          0.0,
-                                                  0.0};
-constexpr std::array<double, kGhostCurves> kUpper{
-    kNone, kNone, kNone, kNone, kHighestRoundness, kNone, kNone, kNone, kHighestSlope, kHighestSlope, kNone, kNone,
-    kNone, kNone, kNone, kNone};
+                                                  -kNone, kMinSize, 0.0,      0.0,          0.0,
+                                                  0.0,    0.0,      0.0};
+constexpr std::array<double, kGhostCurves> kUpper{kNone, kNone, kNone, kNone,         kHighestRoundness,
+                                                  kNone, kNone, kNone, kHighestSlope, kHighestSlope,
+                                                  kNone, kNone, kNone, kNone,         kNone,
+                                                  kNone, kNone, kNone};
 
 }  // namespace
 

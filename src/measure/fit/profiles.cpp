@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/fit/profiles.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "measure/find/find_ghosts.h"
 #include "measure/fit/amplitudes.h"
+#include "measure/fit/one_ghost.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -13,6 +18,8 @@ namespace {
 constexpr std::size_t kMostCoefficients = 3;
 constexpr std::size_t kUsualCoefficients = 2;  // where no station is held out
 constexpr int kShapeIterations = 10;
+constexpr int kMostFromResidual = 8;  // ghosts that the search after profiles may add
+constexpr double kLeastHeldGain = 8.0;  // of the cost at the stations held out, for such a ghost
 // One pixel of this number is fitted: for levels, and for outlines, which are costly where ghosts with profiles
 // overlap.
 constexpr int kLevelSamples = 3, kShapeSamples = 6;
@@ -53,38 +60,118 @@ double held_cost(const FlareFit& fit, const std::vector<FitStation>& stations, c
   return problem.cost(problem.layout.pack(flare));
 }
 
+// The levels of the whole flare at the stations that are fitted, and what those held out say of them.
+struct ProfileFit {
+  FlareFit& fit;
+  AmplitudeSettings settings;
+  std::vector<FitStation> stations, held;
+  std::optional<double> least;  // cost at the stations held out
+
+  explicit ProfileFit(FlareFit& state)
+      : fit(state), stations(sampled_stations(state.fine, kLevelSamples)),
+        held(sampled_stations(state.held_fine, kLevelSamples)) {
+    settings.huber = fit.options.huber;
+    if (!held.empty()) least = held_cost(fit, held, fit.flare(), 0.0);
+  }
+
+  [[nodiscard]] MeasuredFlare with_levels(MeasuredFlare flare) const {
+    return with_best_amplitudes(stations, std::move(flare), settings, fit.context);
+  }
+
+  // Keeps a flare if the stations held out are likelier under it by this much.
+  bool keep(MeasuredFlare flare, double centre_shift, double gain = 0.0) {
+    const double cost = least ? held_cost(fit, held, flare, centre_shift) : 0.0;
+    if (fit.context.cancelled() || (least && !(cost < *least - gain))) return false;
+    if (least) least = cost;
+    fit.flare() = std::move(flare);
+    if (centre_shift != 0.0) {
+      move_all(fit, centre_shift);
+      for (auto* all : {&stations, &held})
+        for (FitStation& station : *all) move_centre(station, centre_shift);
+    }
+    return true;
+  }
+};
+
+// Profiles with as many coefficients as make the stations held out likeliest. False if none helps.
+bool choose_profiles(ProfileFit& all) {
+  const MeasuredFlare start = with_diffuse_ghosts(all.fit.flare(), all.stations.front().frame.pixels);
+  std::optional<std::size_t> best;
+  for (std::size_t count = kUsualCoefficients; count <= (all.least ? kMostCoefficients : kUsualCoefficients); ++count) {
+    all.settings.profile_coefficients = count;
+    if (!all.keep(all.with_levels(start), 0.0)) break;
+    best = count;
+  }
+  if (best) all.settings.profile_coefficients = *best;
+  return best.has_value();
+}
+
+// All outlines together, with the optical centre, then the levels once more.
+void fit_shapes(ProfileFit& all) {
+  FlareFit& fit = all.fit;
+  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples), fit.flare(),
+                                    {fit.options.huber, kShapeIterations, true});
+  std::vector<FitStation> moved = all.stations;
+  for (FitStation& station : moved) move_centre(station, shapes.centre_shift);
+  (void)all.keep(with_best_amplitudes(moved, shapes.flare, all.settings, fit.context), shapes.centre_shift);
+}
+
+// A disc found in what the flare leaves, fitted by itself and then with the levels of all: the profiles and diffuse
+// ghosts have taken its light as far as they could, and give it back. Kept if the stations held out are likelier.
+bool add_from_residual(ProfileFit& all, const std::vector<FitStation>& residuals, const FoundGhost& found) {
+  std::optional<MeasuredGhost> ghost = fitted_alone(all.fit, residuals, found);
+  if (!ghost) return false;
+  MeasuredFlare more = all.fit.flare();
+  const std::size_t at = 1 + all.fit.result.found.size();  // the diffuse ghosts come last
+  ghost->name = fmt::format("{}", at);
+  more.ghosts.insert(more.ghosts.begin() + static_cast<std::ptrdiff_t>(at), std::move(*ghost));
+  if (!all.keep(all.with_levels(std::move(more)), 0.0, kLeastHeldGain)) return false;
+  all.fit.result.found.push_back(found);
+  return true;
+}
+
+// The search again, in the pictures that profiles leave: ghosts beside or under brighter ones show only now. Returns
+// how many were found, `most` or fewer.
+int search_residual(ProfileFit& all, int most) {
+  FlareFit& fit = all.fit;
+  std::vector<FoundGhost> known;
+  int added = 0;
+  for (int rejected = 0; rejected < kMostRejected && added < most && !fit.context.cancelled();) {
+    const std::vector<FitStation> residuals = half_size_stations(residual_stations(fit.fine, fit.flare(), fit.context));
+    const auto found = strongest_disc(search_pictures(residuals, usual_error(residuals)),
+                                      {6.0, fit.options.min_contrast}, known, fit.context);
+    if (!found) break;
+    known.push_back(*found);
+    const bool is_new = add_from_residual(all, residuals, *found);
+    rejected = is_new ? 0 : rejected + 1;
+    added += is_new ? 1 : 0;
+  }
+  return added;
+}
+
+// Removes ghosts without which the stations held out are likelier, the dimmest candidates being those found last.
+void remove_dead(ProfileFit& all) {
+  FlareFit& fit = all.fit;
+  for (std::size_t k = fit.result.found.size(); k > 0 && all.least; --k) {
+    MeasuredFlare fewer = fit.flare();
+    fewer.ghosts.erase(fewer.ghosts.begin() + static_cast<std::ptrdiff_t>(k));
+    if (all.keep(std::move(fewer), 0.0))
+      fit.result.found.erase(fit.result.found.begin() + static_cast<std::ptrdiff_t>(k - 1));
+  }
+}
+
 }  // namespace
 
 void fit_profiles(FlareFit& fit) {
   if (fit.result.found.empty()) return;
-  std::vector<FitStation> stations = sampled_stations(fit.fine, kLevelSamples);
-  const std::vector<FitStation> held = sampled_stations(fit.held_fine, kLevelSamples);
-  AmplitudeSettings settings;
-  settings.huber = fit.options.huber;
-  MeasuredFlare start = with_diffuse_ghosts(fit.flare(), stations.front().frame.pixels);
-  std::optional<double> least;
-  if (!held.empty()) least = held_cost(fit, held, fit.flare(), 0.0);
-  // Keeps a flare if the stations held out are likelier under it.
-  const auto keep = [&](MeasuredFlare flare, double centre_shift) {
-    const double cost = least ? held_cost(fit, held, flare, centre_shift) : 0.0;
-    if (fit.context.cancelled() || (least && !(cost < *least))) return false;
-    if (least) least = cost;
-    fit.flare() = std::move(flare);
-    move_all(fit, centre_shift);
-    return true;
-  };
-  std::optional<std::size_t> best;
-  for (std::size_t count = kUsualCoefficients; count <= (least ? kMostCoefficients : kUsualCoefficients); ++count) {
-    settings.profile_coefficients = count;
-    if (!keep(with_best_amplitudes(stations, start, settings, fit.context), 0.0)) break;
-    best = count;
-  }
-  if (!best) return;
-  settings.profile_coefficients = *best;
-  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples), fit.flare(),
-                                    {fit.options.huber, kShapeIterations, true});
-  for (FitStation& station : stations) move_centre(station, shapes.centre_shift);
-  (void)keep(with_best_amplitudes(stations, shapes.flare, settings, fit.context), shapes.centre_shift);
+  ProfileFit all(fit);
+  if (!choose_profiles(all)) return;
+  fit_shapes(all);
+  if (!all.least) return;
+  const auto found = static_cast<int>(fit.result.found.size() - fit.small_found.size());
+  if (search_residual(all, std::min(kMostFromResidual, fit.options.max_ghosts - found)) == 0) return;
+  remove_dead(all);
+  fit_shapes(all);
 }
 
 }  // namespace contrejour::inline internal

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/fit/station_figures.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -8,6 +11,7 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr double kStandsOut = 9.0;  // the square of a pixel's value over its standard deviation
+constexpr double kUnclear = 9.0;    // the square of a standard deviation over the usual one
 
 }  // namespace
 
@@ -35,10 +39,27 @@ Image fitted_part(Image image, const FitStation& station) {
   return image;
 }
 
-double flux_of(const Image& image, const FitStation& station) {
+std::vector<bool> shows_flux(const FitStation& station, double model_error) {
+  std::vector<double> variances(station.weight.pixels.size(), -1.0), used;
+  for (std::size_t k = 0; k < variances.size(); ++k) {
+    const auto weight = static_cast<double>(station.weight.pixels[k]);
+    if (!(weight > 0.0)) continue;
+    const double part = model_error * std::max(static_cast<double>(station.rate.pixels[k]), 0.0);
+    variances[k] = std::max(1.0 / weight - part * part, 0.0);
+    used.push_back(variances[k]);
+  }
+  std::vector<bool> shown(variances.size(), false);
+  if (used.empty()) return shown;
+  const auto middle = used.begin() + static_cast<std::ptrdiff_t>(used.size() / 2);
+  std::nth_element(used.begin(), middle, used.end());
+  for (std::size_t k = 0; k < shown.size(); ++k) shown[k] = variances[k] >= 0.0 && variances[k] <= kUnclear * *middle;
+  return shown;
+}
+
+double flux_of(const Image& image, const std::vector<bool>& shown) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    if (station.weight.pixels[i] > 0.0F) sum += static_cast<double>(image.pixels[i]);
+  for (std::size_t k = 0; k < shown.size(); ++k)
+    if (shown[k]) sum += static_cast<double>(image.pixels[k]);
   return sum / 3.0;
 }
 

@@ -241,12 +241,13 @@ FitStation half_size_station(const FitStation& station) {
   return half;
 }
 
-std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo, double model_error) {
+std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo, double model_error,
+                                         const std::vector<double>& deviations) {
   std::vector<FitStation> stations = sweep.stations;
   if (stations.empty()) return stations;
   std::vector<double> bright;
   for (std::size_t k = 0; k < stations.size(); ++k) {
-    subtract_halo(stations[k], halo, sweep.lights_px[k], sweep.masked_px);
+    subtract_halo(stations[k], halo, sweep.lights_px[k], sweep.masked_px, deviations.empty() ? 1.0 : deviations[k]);
     bright.push_back(bright_value(stations[k]));
   }
   std::ranges::nth_element(bright, bright.begin() + static_cast<std::ptrdiff_t>(bright.size() / 2));

@@ -24,9 +24,10 @@ struct SweepStations {
 // Means over blocks of 2 x 2 pixels.
 [[nodiscard]] FitStation half_size_station(const FitStation& station);
 
-// Stations without the halo, weighted by noise, halo, and what the model is not expected to describe.
+// Stations without the halo, weighted by noise, halo, and what the model is not expected to describe. deviations: by
+// which each station's halo is multiplied; empty: 1.
 [[nodiscard]] std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo,
-                                                       double model_error);
+                                                       double model_error, const std::vector<double>& deviations = {});
 
 // Stations of which one pixel of so many is fitted.
 [[nodiscard]] std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every);

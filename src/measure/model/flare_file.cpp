@@ -54,12 +54,13 @@ void read_profile(std::string_view name, TomlFields& fields, std::vector<AngleCu
 }
 
 MeasuredGhost read_ghost(const toml::table& table, std::size_t index, TomlErrors& errors) {
-  TomlFields fields(table, fmt::format("ghost {}", index + 1),
-                    {"name",         "first",       "last",        "transition",     "centre",      "half_width",
-                     "skew",         "half_height", "roundness",   "roundness_skew", "width_in",    "width_out",
-                     "slope_in",     "slope_out",   "border_red",  "border_green",   "border_blue", "inside_red",
-                     "inside_green", "inside_blue", "profile_red", "profile_green",  "profile_blue"},
-                    errors);
+  TomlFields fields(
+      table, fmt::format("ghost {}", index + 1),
+      {"name",        "first",       "last",           "transition",   "centre",      "half_width", "skew",
+       "half_height", "roundness",   "roundness_skew", "width_in",     "width_out",   "slope_in",   "slope_out",
+       "clip_centre", "clip_radius", "border_red",     "border_green", "border_blue", "inside_red", "inside_green",
+       "inside_blue", "profile_red", "profile_green",  "profile_blue"},
+      errors);
   MeasuredGhost ghost;
   ghost.name = fields.text("name").value_or(fmt::format("{}", index + 1));
   ghost.first = fields.number("first", kTangent).value_or(0.0);
@@ -112,8 +113,10 @@ std::string ghost_text(const MeasuredGhost& ghost) {
       fmt::format("\n[[ghosts]]\nname = {}\nfirst = {}\nlast = {}\ntransition = {}\n", toml_string(ghost.name),
                   toml_number(ghost.first), toml_number(ghost.last), toml_number(ghost.transition));
   const auto curves = curves_of(ghost);
-  for (std::size_t k = 0; k < kGhostCurves; ++k)
+  for (std::size_t k = 0; k < kGhostCurves; ++k) {
+    if (is_clip_curve(k) && ghost.clip_radius.coefficients.empty()) continue;
     text += fmt::format("{} = {}\n", kCurveNames[k], curve_text(*curves[k]));
+  }
   for (std::size_t c = 0; c < kProfileNames.size(); ++c) {
     std::string lists;
     for (const AngleCurve& term : ghost.profile[c]) lists += (lists.empty() ? "" : ", ") + curve_text(term);

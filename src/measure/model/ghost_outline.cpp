@@ -61,6 +61,16 @@ Candidate nearest_on(const OutlineCubic& cubic, Vec2 point) {
   return best;
 }
 
+// An intersection's distance is the larger of both, as far as it has no corners.
+void cut(const GhostOutline& outline, Vec2 above, OutlinePoint& nearest) {
+  const Vec2 offset = above - Vec2{outline.clip_centre, 0.0};
+  const double from_centre = length(offset), distance = from_centre - outline.clip_radius;
+  if (distance <= nearest.distance) return;
+  nearest.distance = distance;
+  nearest.normal = from_centre > 0.0 ? offset * (1.0 / from_centre) : Vec2{1.0, 0.0};
+  nearest.is_on_clip = true;
+}
+
 }  // namespace
 
 OutlinePoint nearest_point(const GhostOutline& outline, Vec2 point) {
@@ -75,13 +85,15 @@ OutlinePoint nearest_point(const GhostOutline& outline, Vec2 point) {
   const Vec2 offset = above - cubic.at(nearest.t);
   nearest.normal = cubic.outward_normal(nearest.t);
   nearest.distance = std::copysign(length(offset), dot(offset, nearest.normal));
+  if (outline.clip_radius > 0.0) cut(outline, above, nearest);
   if (nearest.is_below) nearest.normal.y = -nearest.normal.y;
   return nearest;
 }
 
 std::array<double, kOutlineParameters> distance_gradient(const GhostOutline& outline, const OutlinePoint& nearest) {
+  if (nearest.is_on_clip) return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -nearest.normal.x, -1.0};
   const Vec2 normal{nearest.normal.x, nearest.is_below ? -nearest.normal.y : nearest.normal.y};
-  const std::array<Vec2, kOutlineParameters> moved =
+  const std::array<Vec2, kCubicParameters> moved =
       nearest.is_right ? right_derivatives(outline, nearest.t) : left_derivatives(outline, nearest.t);
   std::array<double, kOutlineParameters> gradient{};
   std::transform(moved.begin(), moved.end(), gradient.begin(), [&](Vec2 by) { return -dot(normal, by); });

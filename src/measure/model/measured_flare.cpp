@@ -111,7 +111,9 @@ std::optional<GhostAtAngle> ghost_at(const MeasuredGhost& ghost, double s, doubl
                 std::max(width + skew, kMinHalfAxis),
                 height,
                 std::clamp(roundness - roundness_skew, kMinRoundness, kMaxRoundness),
-                std::clamp(roundness + roundness_skew, kMinRoundness, kMaxRoundness)};
+                std::clamp(roundness + roundness_skew, kMinRoundness, kMaxRoundness),
+                ghost.clip_centre(s),
+                ghost.clip_radius.coefficients.empty() ? 0.0 : std::max(ghost.clip_radius(s), kMinHalfAxis)};
   const double slope_in = std::clamp(ghost.slope_in(s), kMinSlope, kMaxSlope);
   const double slope_out = std::clamp(ghost.slope_out(s), kMinSlope, kMaxSlope);
   at.shade = {(slope_in + 1.0) * std::max(ghost.width_in(s), 0.0),

@@ -53,7 +53,7 @@ OutlineCubic right_cubic(const GhostOutline& o) {
            Vec2{o.centre + o.right, o.round_right * o.half_height}, Vec2{o.centre + o.right, 0.0}}};
 }
 
-std::array<Vec2, kOutlineParameters> left_derivatives(const GhostOutline& o, double t) {
+std::array<Vec2, kCubicParameters> left_derivatives(const GhostOutline& o, double t) {
   const auto b = bernstein(t);
   const double q = o.round_left;
   return {Vec2{1.0, 0.0},
@@ -64,7 +64,7 @@ std::array<Vec2, kOutlineParameters> left_derivatives(const GhostOutline& o, dou
           Vec2{}};
 }
 
-std::array<Vec2, kOutlineParameters> right_derivatives(const GhostOutline& o, double t) {
+std::array<Vec2, kCubicParameters> right_derivatives(const GhostOutline& o, double t) {
   const auto b = bernstein(t);
   const double q = o.round_right;
   return {Vec2{1.0, 0.0},

@@ -9,6 +9,8 @@
 
 namespace contrejour::inline internal {
 
+inline constexpr std::size_t kCubicParameters = 6;  // the first ones of GhostOutline
+
 struct OutlineCubic {
   std::array<Vec2, 4> control;
 
@@ -23,7 +25,7 @@ struct OutlineCubic {
 [[nodiscard]] OutlineCubic right_cubic(const GhostOutline& outline);
 
 // Derivatives of the point at t with respect to the outline's parameters.
-[[nodiscard]] std::array<Vec2, kOutlineParameters> left_derivatives(const GhostOutline& outline, double t);
-[[nodiscard]] std::array<Vec2, kOutlineParameters> right_derivatives(const GhostOutline& outline, double t);
+[[nodiscard]] std::array<Vec2, kCubicParameters> left_derivatives(const GhostOutline& outline, double t);
+[[nodiscard]] std::array<Vec2, kCubicParameters> right_derivatives(const GhostOutline& outline, double t);
 
 }  // namespace contrejour::inline internal

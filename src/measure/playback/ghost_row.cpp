@@ -112,8 +112,12 @@ HWY_INLINE hn::Vec<D> distance_at(D d, const GhostPacket& ghost, hn::Vec<D> x, h
     nearest.squared = hn::IfThenElse(is_nearer, other.squared, nearest.squared);
     nearest.side = hn::IfThenElse(is_nearer, other.side, nearest.side);
   }
-  const auto distance = hn::Sqrt(nearest.squared);
-  return hn::IfThenElse(hn::Lt(nearest.side, zero), hn::Neg(distance), distance);
+  const auto size = hn::Sqrt(nearest.squared);
+  const auto distance = hn::IfThenElse(hn::Lt(nearest.side, zero), hn::Neg(size), size);
+  if (!(ghost.clip_radius > 0.0F)) return distance;
+  const auto from_x = hn::Sub(x, hn::Set(d, ghost.clip_x));
+  const auto from_clip = hn::Sqrt(hn::MulAdd(from_x, from_x, hn::Mul(y, y)));
+  return hn::Max(distance, hn::Sub(from_clip, hn::Set(d, ghost.clip_radius)));
 }
 
 template <class D>

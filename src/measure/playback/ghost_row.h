@@ -20,6 +20,7 @@ struct GhostPacket {
   // The profile is added to the inside's level (ghost_profile.h): its terms, and the places' scales: 1 / half axis.
   bool has_profile = false;
   std::array<std::array<float, kProfileTerms>, 3> profile{};
+  float clip_x = 0, clip_radius = 0;  // the circle that cuts the outline; radius 0: none
   float per_left = 0, per_right = 0, per_height = 0;
 };
 

@@ -64,6 +64,8 @@ PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, cons
     for (std::size_t c = 0; c < 3; ++c)
       at.packet.profile[c][k] = static_cast<float>(ghost.profile[k][c] * value[c] * per_pixel);
   }
+  at.packet.clip_x = static_cast<float>(scale * (ghost.outline.clip_centre - ghost.outline.centre));
+  at.packet.clip_radius = static_cast<float>(scale * ghost.outline.clip_radius);
   at.packet.per_left = static_cast<float>(1.0 / outline.left);
   at.packet.per_right = static_cast<float>(1.0 / outline.right);
   at.packet.per_height = static_cast<float>(1.0 / outline.half_height);
