@@ -25,6 +25,9 @@ constexpr double kFarthestLight = 1.15, kFarthestEdge = 2.0;
 constexpr double kFallLight = 32.0, kFallEdge = 20.0;
 constexpr double kNearSensor = 1.6;   // half diagonals: rays that land farther out count less
 constexpr double kSamplesPerUnknown = 2.0;
+// Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
+// of them. Without a ridge their coefficients grow until float cannot hold the differences.
+constexpr double kRidge = 1e-7;
 constexpr double kOpenLimit = 1.02, kBlockingRim = 0.98;  // squared relative heights, next to an edge
 constexpr double kRoom = 1.02;        // of the pupil radius, around the bounds
 
@@ -154,7 +157,7 @@ class Systems {
 
   const LeastSquares& made(Made& all, int degree, bool of_vectors) {
     auto& one = all[static_cast<std::size_t>(degree)];
-    if (!one) one.emplace(matrix(degree, of_vectors));
+    if (!one) one.emplace(matrix(degree, of_vectors), kRidge);
     return *one;
   }
 

@@ -7,7 +7,9 @@
 
 #include <doctest/doctest.h>
 
+#include "contrejour/expert/polynomial_method.h"
 #include "contrejour/render.h"
+#include "support/fits.h"
 
 namespace contrejour::test {
 
@@ -18,9 +20,10 @@ struct Settings : FrameSettings {
   BundleOptions bundle;
   TiledOptions tiled;
   ReferenceOptions reference;
+  PolynomialRenderOptions polynomial;
 
   void set_grid(int rays) { bundle.grid.rays = tiled.grid.rays = rays; }
-  void set_error(double error) { adaptive.error = area_error = error; }
+  void set_error(double error) { adaptive.error = polynomial.error = area_error = error; }
 
   // Errors: there is no such method.
   [[nodiscard]] Result<MethodOptions> options(std::string_view method) const {
@@ -30,14 +33,17 @@ struct Settings : FrameSettings {
     if (auto* const own = all->get_if<BundleOptions>()) *own = bundle;
     if (auto* const own = all->get_if<TiledOptions>()) *own = tiled;
     if (auto* const own = all->get_if<ReferenceOptions>()) *own = reference;
+    if (auto* const own = all->get_if<PolynomialRenderOptions>()) *own = polynomial;
     return all;
   }
 };
 
 inline Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                             const Settings& settings, const Context& context = {}) {
-  const auto options = settings.options(method);
+  auto options = settings.options(method);
   if (!options) return tl::unexpected(options.error());
+  if (auto* const own = options->get_if<PolynomialRenderOptions>())
+    if (!own->fit && own->file.empty()) own->fit = shared_fit(lens, settings);
   return contrejour::render(*options, lens, lights, settings, context);
 }
 
