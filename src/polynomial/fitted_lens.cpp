@@ -67,6 +67,7 @@ class EvaluatedRays final : public RaySource {
 
   void rays(Vec2 origin_mm, PacketPrecision /*precision*/, const float* x_mm, const float* y_mm, std::size_t count,
             const TracedArrays& out) override {
+    const float largest = largest_transmittance();  // uses the outputs that are set next
     prepare_geometry();
     vectors_[0].x = out.sensor_x_mm;
     vectors_[0].y = out.sensor_y_mm;
@@ -80,7 +81,7 @@ class EvaluatedRays final : public RaySource {
                      .crossings = field_.stop.size(),
                      .stop_scale = widest_scale(),
                      .transmittance = {&transmittance_, out.transmission},
-                     .largest_transmittance = largest_transmittance()});
+                     .largest_transmittance = largest});
   }
 
   void transmissions(Vec2 origin_mm, PacketPrecision /*precision*/, const float* x_mm, const float* y_mm,

@@ -111,6 +111,9 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
+// The rays of a fitted item in the preview frame count as those of a typical traced one: more of them cost little.
+constexpr double kRaysOfFitted = 110.0;
+
 // Preview: the rays of one wavelength serve for all.
 enum class Quality { Preview, Low, Full };
 
@@ -211,7 +214,7 @@ PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, co
   parallel_for(items.size(), context, [&](std::size_t k) {
     TessellatedItem tessellated = tessellate(scene, items[k], Quality::Preview, small, unlimited, scratch_pool);
     done[k] = tessellated.work;
-    preview.estimates[k] = {level_of(tessellated.polygons, scale), static_cast<double>(tessellated.rays)};
+    preview.estimates[k] = {level_of(tessellated.polygons, scale), std::min(static_cast<double>(tessellated.rays), items[k].is_fitted ? kRaysOfFitted : 1e9)};
     batch->set(k, std::move(tessellated.polygons));
   });
   for (const Work& w : done) work.add(w);
