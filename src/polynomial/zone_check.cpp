@@ -14,7 +14,7 @@ constexpr std::array kTestedWavelengths{-0.86, -0.11, 0.57};  // coordinates, no
 constexpr double kLandingNear = 1.1;  // of its size
 constexpr std::size_t kFewRays = 16;
 // A ray that passes an edge outside by this fraction of its radius must not be let through.
-constexpr double kBlockedBy = 0.03;
+constexpr double kBlockedBy = 0.01;
 
 std::vector<double> sorted(std::vector<double> values) {
   std::ranges::sort(values);
