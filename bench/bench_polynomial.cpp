@@ -29,8 +29,8 @@ PowerSum sum_of(int degree, float size) {
 
 void evaluate_points_of(benchmark::State& state, int order, std::int64_t target) {
   const int degree = (order - 1) / 2;
-  const std::array sums{sum_of(degree, 3.0F), sum_of(degree, 5.0F), sum_of(degree, 0.2F), sum_of(degree, 0.9F),
-                        sum_of(degree, 0.7F), sum_of(degree, 1e-3F)};
+  const std::array sums{sum_of(degree, 3.0F), sum_of(degree, 5.0F), sum_of(degree, 0.2F),
+                        sum_of(degree, 0.9F), sum_of(degree, 0.7F), sum_of(degree, 1e-3F)};
   std::vector<float> x(kPoints), y(kPoints);
   for (std::size_t k = 0; k < kPoints; ++k) {
     x[k] = 10.0F * std::sin(static_cast<float>(k));
@@ -54,7 +54,8 @@ void evaluate_points_of(benchmark::State& state, int order, std::int64_t target)
 const bool kRegistered = [] {
   for (const int order : {5, 7, 9, 11, 13}) {
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-      const std::string name = std::string("evaluate_points/") + hwy::TargetName(target) + "/order:" + std::to_string(order);
+      const std::string name =
+          std::string("evaluate_points/") + hwy::TargetName(target) + "/order:" + std::to_string(order);
       benchmark::RegisterBenchmark(name.c_str(), evaluate_points_of, order, static_cast<std::int64_t>(target));
     }
   }

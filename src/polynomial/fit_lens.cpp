@@ -136,7 +136,8 @@ Result<LensPolynomials> fit_polynomials(const LensState& lens, const PolynomialO
   const std::vector<Ghost> ghosts =
       options.ghosts.empty() ? enumerate_ghosts(lens, options.scope, options.reflections) : options.ghosts;
   for (const Ghost& ghost : ghosts)
-    if (!has_ghost(lens, ghost)) return invalid_argument(fmt::format("there is no ghost {} in this lens", ghost_name(ghost)));
+    if (!has_ghost(lens, ghost))
+      return invalid_argument(fmt::format("there is no ghost {} in this lens", ghost_name(ghost)));
   std::vector<GhostPolynomials> fitted(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t k) { fitted[k] = fit_ghost(open, steps, all, options, ghosts[k]); });

@@ -31,7 +31,7 @@ constexpr double kRidge = 1e-7;
 // Squared relative heights next to an edge, wide enough that the few rays there show which rim is the outermost, and by
 // how much a rim must exceed the others.
 constexpr double kOpenLimit = 1.12, kBlockingRim = 0.88, kOutermostBy = 0.004;
-constexpr double kRoom = 1.02;        // of the pupil radius, around the bounds
+constexpr double kRoom = 1.02;  // of the pupil radius, around the bounds
 
 double lobatto(int k, int count) { return std::cos(std::numbers::pi * k / (count - 1)); }
 
@@ -130,7 +130,8 @@ std::vector<int> blocking_steps(const FitRays& rays) {
     for (std::size_t step = 0; step < table.rim_squared.size(); ++step) {
       int count = 0;
       for (std::size_t k = 0; k < limits.size(); ++k)
-        count += limits[k] < kOpenLimit && table.rim_squared[step][used[k]] > std::max(kBlockingRim, limits[k] + kOutermostBy)
+        count += limits[k] < kOpenLimit &&
+                         table.rim_squared[step][used[k]] > std::max(kBlockingRim, limits[k] + kOutermostBy)
                      ? 1
                      : 0;
       if (count > most && std::ranges::find(steps, static_cast<int>(step)) == steps.end())

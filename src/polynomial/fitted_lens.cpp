@@ -86,7 +86,8 @@ class EvaluatedRays final : public RaySource {
 
   void transmissions(Vec2 origin_mm, PacketPrecision /*precision*/, const float* x_mm, const float* y_mm,
                      std::size_t count, float* out) override {
-    evaluate_points(map_from(origin_mm), x_mm, y_mm, count, {.transmittance = {&transmittance_, out}, .largest_transmittance = largest_transmittance()});
+    evaluate_points(map_from(origin_mm), x_mm, y_mm, count,
+                    {.transmittance = {&transmittance_, out}, .largest_transmittance = largest_transmittance()});
   }
 
   // Polynomials do not fail. The relative height comes without its direction, as a point on the x axis.

@@ -16,8 +16,8 @@ class FittedLens final : public pupils::FittedGhosts {
  public:
   explicit FittedLens(std::shared_ptr<const LensPolynomials> fit);
 
-  // Null for lights at a finite distance or outside of the fit's field, wavelengths outside of its range, a stop that is
-  // wider than the lens's, and zones that are Traced.
+  // Null for lights at a finite distance or outside of the fit's field, wavelengths outside of its range, a stop that
+  // is wider than the lens's, and zones that are Traced.
   [[nodiscard]] std::unique_ptr<pupils::FittedGhost> find(const pupils::RayRequest& request) const override;
 
   [[nodiscard]] const LensPolynomials& fit() const { return *fit_; }

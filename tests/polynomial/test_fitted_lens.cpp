@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that are evaluated in packets against evaluate(), which sums Chebyshev polynomials one point at a time in double.
+// Rays that are evaluated in packets against evaluate(), which sums Chebyshev polynomials one point at a time in
+// double.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,9 +46,10 @@ struct Evaluated {
   }
   TracedArrays arrays(std::size_t rim_count) {
     rims.resize(rim_count * x_mm.size());
-    TracedArrays out{sensor_x.data(), sensor_y.data(), transmission.data(), height.data(), {}, {}, rims.data(),
-                     x_mm.size()};
-    for (std::size_t c = 0; c < kMaxStopCrossings; ++c) out.stop_x[c] = stop_x[c].data(), out.stop_y[c] = stop_y[c].data();
+    TracedArrays out{sensor_x.data(), sensor_y.data(), transmission.data(), height.data(), {}, {},
+                     rims.data(),     x_mm.size()};
+    for (std::size_t c = 0; c < kMaxStopCrossings; ++c)
+      out.stop_x[c] = stop_x[c].data(), out.stop_y[c] = stop_y[c].data();
     return out;
   }
 };
@@ -77,7 +79,8 @@ TEST_CASE("packets give the values of evaluate(), for a smaller stop and another
       if (!polynomial::has_light(bounds)) continue;
       const LightFrame light = light_at(field);
       const double to_plane_mm = kPlane_mm - one_side_fit()->entrance_z_mm;
-      const auto fitted = lens.find({ghost.ghost, light, kPlane_mm, kSmaller * one_side_fit()->stop_radius_mm, 400.0, 700.0});
+      const auto fitted =
+          lens.find({ghost.ghost, light, kPlane_mm, kSmaller * one_side_fit()->stop_radius_mm, 400.0, 700.0});
       REQUIRE(fitted != nullptr);
       const auto source = fitted->at(kLambda_nm);
       CHECK(source->surfaces() == 0);
@@ -118,8 +121,8 @@ TEST_CASE("pupils of fitted ghosts contain all light at any stop, and little els
       const PolynomialZone* const zone = find_zone(ghost, 0.13);
       if (zone == nullptr || zone->state != PolynomialZone::State::Fitted) continue;
       const LightFrame light = light_at(0.13);
-      const auto fitted = lens.find(
-          {ghost.ghost, light, one_side_fit()->entrance_z_mm, opening * one_side_fit()->stop_radius_mm, kLambda_nm[0], kLambda_nm[2]});
+      const auto fitted = lens.find({ghost.ghost, light, one_side_fit()->entrance_z_mm,
+                                     opening * one_side_fit()->stop_radius_mm, kLambda_nm[0], kLambda_nm[2]});
       REQUIRE(fitted != nullptr);
       const std::vector<Rectangle> boxes = find_fitted_pupil(*fitted, kLambda_nm);
       for (const Rectangle& box : boxes) boxes_mm2 += area_of(box);

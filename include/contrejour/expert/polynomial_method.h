@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of the method `polynomial`, which draws ghosts as `adaptive` does, with rays that are evaluated from a fit
-// (polynomial.h) where the fit accepts a ghost, and traced elsewhere.
-// Thread-safety: plain values.
+// The options of the method `polynomial`, which draws ghosts as `adaptive` does, with rays that are evaluated from a
+// fit (polynomial.h) where the fit accepts a ghost, and traced elsewhere. Thread-safety: plain values.
 #pragma once
 
 #include <filesystem>

@@ -186,9 +186,8 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   });
   std::vector<Work> done(items.size());
   const std::vector<GhostPupil>& known = scene.plan.pupils;
-  parallel_for(items.size(), context, [&](std::size_t k) {
-    done[k] = find_boxes(scene, items[k], known.empty() ? nullptr : &known[k]);
-  });
+  parallel_for(items.size(), context,
+               [&](std::size_t k) { done[k] = find_boxes(scene, items[k], known.empty() ? nullptr : &known[k]); });
   for (const Work& w : done) work.add(w);
   return items;
 }
@@ -214,7 +213,8 @@ PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, co
   parallel_for(items.size(), context, [&](std::size_t k) {
     TessellatedItem tessellated = tessellate(scene, items[k], Quality::Preview, small, unlimited, scratch_pool);
     done[k] = tessellated.work;
-    preview.estimates[k] = {level_of(tessellated.polygons, scale), std::min(static_cast<double>(tessellated.rays), items[k].is_fitted ? kRaysOfFitted : 1e9)};
+    preview.estimates[k] = {level_of(tessellated.polygons, scale),
+                            std::min(static_cast<double>(tessellated.rays), items[k].is_fitted ? kRaysOfFitted : 1e9)};
     batch->set(k, std::move(tessellated.polygons));
   });
   for (const Work& w : done) work.add(w);

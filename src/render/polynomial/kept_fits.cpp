@@ -82,24 +82,24 @@ Result<std::shared_ptr<const FittedLens>> kept_fit(const PlannedFrame& planned,
   }
   const LensPolynomials& fit = kept->lens->fit();
   if (fit.fingerprint != fingerprint_of(planned))
-    return invalid_argument(
-        fmt::format("the fit is one of '{}' at other settings, or of another lens; zoom, focus, coatings and the sensor's "
-                    "place need a fit of their own (`contrejour polynomial fit`)",
-                    fit.lens));
+    return invalid_argument(fmt::format(
+        "the fit is one of '{}' at other settings, or of another lens; zoom, focus, coatings and the sensor's "
+        "place need a fit of their own (`contrejour polynomial fit`)",
+        fit.lens));
   return kept->lens;
 }
 
 bool is_known(const FittedLens* fitted, const Ghost& ghost) {
-  return fitted != nullptr && std::ranges::find(fitted->fit().ghosts, ghost, &GhostPolynomials::ghost) !=
-                                  fitted->fit().ghosts.end();
+  return fitted != nullptr &&
+         std::ranges::find(fitted->fit().ghosts, ghost, &GhostPolynomials::ghost) != fitted->fit().ghosts.end();
 }
 
 // Fits the frame's ghosts that no earlier frame needed.
 Result<std::shared_ptr<const FittedLens>> made_fit(const PlannedFrame& planned, const Context& context) {
   const LensState& lens = planned.lens;
-  const std::shared_ptr<MadeFit> kept = planned.cache.section<MadeFit>(
-      {lens.surfaces, lens.stop_index, lens.sensor_z_mm, lens.sensor_width_mm, lens.sensor_height_mm,
-       lens.design_wavelength_nm});
+  const std::shared_ptr<MadeFit> kept =
+      planned.cache.section<MadeFit>({lens.surfaces, lens.stop_index, lens.sensor_z_mm, lens.sensor_width_mm,
+                                      lens.sensor_height_mm, lens.design_wavelength_nm});
   PolynomialOptions missing;
   std::ranges::copy_if(planned.plan.ghosts, std::back_inserter(missing.ghosts),
                        [&](const Ghost& ghost) { return !is_known(kept->lens.get(), ghost); });

@@ -11,7 +11,6 @@ namespace contrejour::inline internal {
 [[nodiscard]] Result<DrawnFlare> render_polynomial(const PlannedFrame& planned, const PolynomialRenderOptions& options,
                                                    const Context& context);
 
-inline constexpr Method kPolynomial =
-    method_of<PolynomialRenderOptions, render_polynomial>({.spends_error = true});
+inline constexpr Method kPolynomial = method_of<PolynomialRenderOptions, render_polynomial>({.spends_error = true});
 
 }  // namespace contrejour::inline internal

@@ -96,8 +96,7 @@ bool predicts_next(FirstRays& rays, const WavelengthSamples& samples, std::size_
   std::vector<bool> arrives(next.count());
   for (std::size_t node = 0; node < next.count(); ++node) {
     arrives[node] = next.counts(node);
-    for (std::size_t k = 0; k < count; ++k)
-      arrives[node] = arrives[node] && rays.ray_sets[samples[k]].counts(node);
+    for (std::size_t k = 0; k < count; ++k) arrives[node] = arrives[node] && rays.ray_sets[samples[k]].counts(node);
   }
   const auto holds = [&](auto values, double allowed) {
     const std::vector<float>& is = values(next);

@@ -197,8 +197,7 @@ LobattoRays LobattoTracer::trace(const Rectangle& box, int nodes, PacketPrecisio
 
 // Removes obscurations from the relative heights, which searches assume to be those of convex openings.
 void LobattoTracer::leave_obscurations_out(LobattoRays& ray_set) const {
-  for (std::size_t rim = 0; rim < source_->rims(); ++rim)
-    ray_set.blocks_within.push_back(source_->blocks_within(rim));
+  for (std::size_t rim = 0; rim < source_->rims(); ++rim) ray_set.blocks_within.push_back(source_->blocks_within(rim));
   for (std::size_t node = 0; node < ray_set.count(); ++node) {
     if (ray_set.relative_height[node] == kFailed) continue;
     float squared = 0.0F;
