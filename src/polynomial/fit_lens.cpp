@@ -86,6 +86,18 @@ class Fingerprint {
   std::uint64_t hash_ = kSplitMixIncrement;
 };
 
+// A number that differs for apertures and obscurations that differ; 0 for a disc without any.
+double opening_of(const SurfaceState& surface) {
+  const Obscuration& within = surface.obscuration;
+  double sum = 1.1 * within.half_mm.x + 1.3 * within.half_mm.y + 1.7 * within.centre_mm.x + 1.9 * within.centre_mm.y +
+               2.3 * within.rotation_rad;
+  const ClearAperture& aperture = surface.aperture;
+  if (aperture.kind != ApertureKind::Disc)
+    sum += 100.0 * static_cast<double>(aperture.kind) + 2.9 * aperture.half_mm.x + 3.1 * aperture.half_mm.y +
+           3.7 * aperture.centre_mm.x + 4.1 * aperture.centre_mm.y + 4.3 * aperture.rotation_rad;
+  return sum;
+}
+
 }  // namespace
 }  // namespace contrejour::inline internal::polynomial
 
@@ -96,11 +108,13 @@ using namespace polynomial;
 std::uint64_t polynomial_fingerprint(const LensState& lens) {
   Fingerprint fingerprint;
   fingerprint.add(lens.sensor_z_mm);
+  fingerprint.add(lens.absorption ? 1.0 : 0.0);
   for (const double lambda_nm : {450.0, 550.0, 650.0}) {
     const ReflectanceTables tables(lens, lambda_nm);
     for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
       const SurfaceState& surface = lens.surfaces[k];
       fingerprint.add(surface.z_mm);
+      fingerprint.add(opening_of(surface));
       if (surface.kind == SurfaceKind::Stop) continue;
       fingerprint.add(surface.curvature_per_mm);
       fingerprint.add(surface.semi_diameter_mm);

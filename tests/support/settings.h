@@ -38,12 +38,19 @@ struct Settings : FrameSettings {
   }
 };
 
-inline Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
-                            const Settings& settings, const Context& context = {}) {
+// The same, with a fit of the lens where the method draws from one.
+inline Result<MethodOptions> options_for(std::string_view method, const LensState& lens, const Settings& settings) {
   auto options = settings.options(method);
-  if (!options) return tl::unexpected(options.error());
+  if (!options) return options;
   if (auto* const own = options->get_if<PolynomialRenderOptions>())
     if (!own->fit && own->file.empty()) own->fit = shared_fit(lens, settings);
+  return options;
+}
+
+inline Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
+                            const Settings& settings, const Context& context = {}) {
+  const auto options = options_for(method, lens, settings);
+  if (!options) return tl::unexpected(options.error());
   return contrejour::render(*options, lens, lights, settings, context);
 }
 

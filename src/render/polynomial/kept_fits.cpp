@@ -22,6 +22,7 @@ struct KeptFingerprint {
   struct Key {
     std::vector<SurfaceState> surfaces;
     double sensor_z_mm = 0.0;
+    bool absorption = false;
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit KeptFingerprint(const Key& /*key*/) {}
@@ -31,7 +32,7 @@ struct KeptFingerprint {
 
 std::uint64_t fingerprint_of(const PlannedFrame& planned) {
   const std::shared_ptr<KeptFingerprint> kept =
-      planned.cache.section<KeptFingerprint>({planned.lens.surfaces, planned.lens.sensor_z_mm});
+      planned.cache.section<KeptFingerprint>({planned.lens.surfaces, planned.lens.sensor_z_mm, planned.lens.absorption});
   if (!kept->value) kept->value = polynomial_fingerprint(planned.lens);
   return *kept->value;
 }
@@ -55,6 +56,7 @@ struct MadeFit {
     std::vector<SurfaceState> surfaces;
     int stop_index = 0;
     double sensor_z_mm = 0.0, sensor_width_mm = 0.0, sensor_height_mm = 0.0, design_wavelength_nm = 0.0;
+    bool absorption = false;
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit MadeFit(const Key& /*key*/) {}
@@ -99,7 +101,7 @@ Result<std::shared_ptr<const FittedLens>> made_fit(const PlannedFrame& planned, 
   const LensState& lens = planned.lens;
   const std::shared_ptr<MadeFit> kept =
       planned.cache.section<MadeFit>({lens.surfaces, lens.stop_index, lens.sensor_z_mm, lens.sensor_width_mm,
-                                      lens.sensor_height_mm, lens.design_wavelength_nm});
+                                      lens.sensor_height_mm, lens.design_wavelength_nm, lens.absorption});
   PolynomialOptions missing;
   std::ranges::copy_if(planned.plan.ghosts, std::back_inserter(missing.ghosts),
                        [&](const Ghost& ghost) { return !is_known(kept->lens.get(), ghost); });

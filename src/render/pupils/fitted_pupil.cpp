@@ -10,7 +10,7 @@ namespace {
 constexpr int kEvaluatedColumns = 8;  // of each grid; half as many rows in a box that touches the axis
 constexpr float kEvaluatedMargin = 0.5F;  // ClearanceGrid::may_transmit
 constexpr double kWorthLevel = 0.6;  // of the area
-constexpr int kMaxLevels = 4;  // of grids, each in a part of the preceding one
+constexpr int kMaxLevels = 8;  // of grids, each in a part of the preceding one
 
 // Adds the boxes of light in a part of the upper half.
 void search_evaluated(ClearanceGrid& grid, const Rectangle& part, int level, std::vector<Rectangle>& boxes) {
