@@ -141,7 +141,6 @@ TEST_CASE("pupils of fitted ghosts contain all light at any stop, and little els
       }
     }
     CHECK(lit > 10);
-    MESSAGE(opening, " ", boxes_mm2 / light_mm2);
     CHECK(boxes_mm2 < 4.0 * light_mm2);
   }
 }
