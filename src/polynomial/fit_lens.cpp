@@ -61,6 +61,34 @@ std::vector<PolynomialZone> fit_zones(const ZoneProblem& problem, double low, do
   return std::ranges::all_of(parts, is_traced) ? whole : parts;
 }
 
+// The part of the field with light, as it shows at some fields: a part without is a zone of its own, since a fit of few
+// fields with light has few rays.
+std::vector<PolynomialZone> fit_lit_zones(const ZoneProblem& problem, double high) {
+  constexpr int kSteps = 24;
+  constexpr double kWorthDividing = 0.85;  // of the field's area
+  const auto field_at = [&](int step) { return high * std::sqrt(static_cast<double>(step) / kSteps); };
+  int first = kSteps, last = 0;
+  for (int step = 0; step <= kSteps; ++step) {
+    if (!has_light(problem.rays.bounds(field_at(step)))) continue;
+    first = std::min(first, std::max(step - 1, 0));
+    last = std::min(step + 1, kSteps);
+  }
+  const int halvings = problem.options.max_halvings;
+  if (last <= first || last - first > kWorthDividing * kSteps) return fit_zones(problem, 0.0, high, halvings);
+  std::vector<PolynomialZone> zones;
+  const auto add_dark = [&](int from, int to) {
+    if (from == to) return;
+    zones.emplace_back();
+    zones.back().field_low = field_at(from);
+    zones.back().field_high = field_at(to);
+  };
+  add_dark(0, first);
+  for (PolynomialZone& zone : fit_zones(problem, field_at(first), field_at(last), halvings))
+    zones.push_back(std::move(zone));
+  add_dark(last, kSteps);
+  return zones;
+}
+
 GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps, const LensPolynomials& all,
                            const PolynomialOptions& options, const Ghost& ghost) {
   if (!is_fitted(lens, ghost)) {
@@ -71,7 +99,7 @@ GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps
   }
   const GhostRays rays(lens, steps, ghost, all.entrance_z_mm);
   const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
-  return {ghost, fit_zones({all, options, rays, sensor_half_mm}, 0.0, all.max_field, options.max_halvings)};
+  return {ghost, fit_lit_zones({all, options, rays, sensor_half_mm}, all.max_field)};
 }
 
 class Fingerprint {

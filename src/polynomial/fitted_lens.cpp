@@ -200,14 +200,20 @@ class DarkGhost final : public FittedGhost {
   [[nodiscard]] Rectangle upper_half() const override { return {}; }
 };
 
-// The bounds at a field, of neighbours of which only one has light its own.
+// The bounds at a field; next to a field without light those of the other neighbour, since searches miss some small
+// pupils.
 PolynomialBounds bounds_at(const PolynomialZone& zone, double field) {
-  const PolynomialBounds between = bounds_between(zone.bounds, field);
+  const PolynomialBounds between = bounds_between(zone, field);
   if (has_light(between)) return between;
   const auto at = static_cast<float>(field);
   for (std::size_t k = 0; k + 1 < zone.bounds.size(); ++k) {
     if (at < zone.bounds[k].field || at > zone.bounds[k + 1].field) continue;
-    return has_light(zone.bounds[k]) ? zone.bounds[k] : zone.bounds[k + 1];
+    PolynomialBounds bounds = has_light(zone.bounds[k]) ? zone.bounds[k] : zone.bounds[k + 1];
+    if (!has_light(bounds)) continue;
+    const auto shift = static_cast<float>(centre_at(zone, field) - centre_at(zone, bounds.field));
+    bounds.low_x_mm += shift;
+    bounds.high_x_mm += shift;
+    return bounds;
   }
   return between;
 }

@@ -34,7 +34,7 @@ ZoneCheck::ZoneCheck(const LensPolynomials& lens, const GhostRays& rays, const P
   const double low = zone.field_low * zone.field_low, high = zone.field_high * zone.field_high;
   std::vector<PolynomialBounds> bounds;
   for (int k = 0; k < kTestedFields; ++k)
-    bounds.push_back(bounds_between(zone.bounds, std::sqrt(low + (high - low) * (k + 0.5) / kTestedFields)));
+    bounds.push_back(bounds_between(zone, std::sqrt(low + (high - low) * (k + 0.5) / kTestedFields)));
   starts_ = starts_within(bounds, kTestedAtField, kFirstIndex);
   for (const RayStart& start : starts_) points_.push_back(zone_point(zone, start.field, start.entrance_mm));
   for (const double coordinate : kTestedWavelengths) {

@@ -75,7 +75,7 @@ TEST_CASE("packets give the values of evaluate(), for a smaller stop and another
     for (const PolynomialZone& zone : ghost.zones) {
       if (zone.state != PolynomialZone::State::Fitted) continue;
       const double field = std::lerp(zone.field_low, zone.field_high, 0.63);
-      const PolynomialBounds bounds = polynomial::bounds_between(zone.bounds, field);
+      const PolynomialBounds bounds = polynomial::bounds_between(zone, field);
       if (!polynomial::has_light(bounds)) continue;
       const LightFrame light = light_at(field);
       const double to_plane_mm = kPlane_mm - one_side_fit()->entrance_z_mm;
