@@ -31,8 +31,8 @@ struct KeptFingerprint {
 };
 
 std::uint64_t fingerprint_of(const PlannedFrame& planned) {
-  const std::shared_ptr<KeptFingerprint> kept =
-      planned.cache.section<KeptFingerprint>({planned.lens.surfaces, planned.lens.sensor_z_mm, planned.lens.absorption});
+  const std::shared_ptr<KeptFingerprint> kept = planned.cache.section<KeptFingerprint>(
+      {planned.lens.surfaces, planned.lens.sensor_z_mm, planned.lens.absorption});
   if (!kept->value) kept->value = polynomial_fingerprint(planned.lens);
   return *kept->value;
 }
