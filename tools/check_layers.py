@@ -163,6 +163,7 @@ PUBLIC = {
     "expert/pixel_grid.h": "compositing",
     "expert/plate.h": "plates",
     "expert/polynomial.h": "polynomial",
+    "expert/polynomial_method.h": "render/planning",
 }
 
 # "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
@@ -188,6 +189,7 @@ MAY_INCLUDE = {
                  "diffraction", "image"],
     "renderer:adaptive": ["renderer", "render/ray_maps", "render/adaptive/choose", "render/adaptive/emit",
                           "render/adaptive/tiles"],
+    "renderer:polynomial": ["renderer:adaptive", "polynomial"],
     "render/ray_maps": ["render/planning", "render/pupils"],
     "render/adaptive/tiles": ["render/polygons", "image"],
     "render/adaptive/cells": ["render/ray_maps", "render/polygons", "render/stop_patterns"],

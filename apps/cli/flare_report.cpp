@@ -31,6 +31,7 @@ Json stats_json(const RenderStatistics& statistics) {
           {"tile_list_bytes", statistics.tile_list_bytes},
           {"ghosts_rendered", statistics.ghosts_rendered},
           {"ghosts_skipped_flux", skipped},
+          {"traced_flux", statistics.traced_flux ? Json(*statistics.traced_flux) : Json()},
           {"peak_memory_bytes", statistics.peak_memory_bytes}};
 }
 

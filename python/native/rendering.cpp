@@ -25,6 +25,7 @@ py::dict dict_of(const RenderStatistics& s) {
   fields["primitives"] = s.primitives;
   fields["ghosts_rendered"] = s.ghosts_rendered;
   fields["ghosts_skipped_flux"] = s.ghosts_skipped_flux;
+  fields["traced_flux"] = s.traced_flux;
   fields["peak_memory_bytes"] = s.peak_memory_bytes;
   return fields;
 }

@@ -61,6 +61,34 @@ std::vector<PolynomialZone> fit_zones(const ZoneProblem& problem, double low, do
   return std::ranges::all_of(parts, is_traced) ? whole : parts;
 }
 
+// The part of the field with light, as it shows at some fields: a part without is a zone of its own, since a fit of few
+// fields with light has few rays.
+std::vector<PolynomialZone> fit_lit_zones(const ZoneProblem& problem, double high) {
+  constexpr int kSteps = 24;
+  constexpr double kWorthDividing = 0.85;  // of the field's area
+  const auto field_at = [&](int step) { return high * std::sqrt(static_cast<double>(step) / kSteps); };
+  int first = kSteps, last = 0;
+  for (int step = 0; step <= kSteps; ++step) {
+    if (!has_light(problem.rays.bounds(field_at(step)))) continue;
+    first = std::min(first, std::max(step - 1, 0));
+    last = std::min(step + 1, kSteps);
+  }
+  const int halvings = problem.options.max_halvings;
+  if (last <= first || last - first > kWorthDividing * kSteps) return fit_zones(problem, 0.0, high, halvings);
+  std::vector<PolynomialZone> zones;
+  const auto add_dark = [&](int from, int to) {
+    if (from == to) return;
+    zones.emplace_back();
+    zones.back().field_low = field_at(from);
+    zones.back().field_high = field_at(to);
+  };
+  add_dark(0, first);
+  for (PolynomialZone& zone : fit_zones(problem, field_at(first), field_at(last), halvings))
+    zones.push_back(std::move(zone));
+  add_dark(last, kSteps);
+  return zones;
+}
+
 GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps, const LensPolynomials& all,
                            const PolynomialOptions& options, const Ghost& ghost) {
   if (!is_fitted(lens, ghost)) {
@@ -71,7 +99,7 @@ GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps
   }
   const GhostRays rays(lens, steps, ghost, all.entrance_z_mm);
   const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
-  return {ghost, fit_zones({all, options, rays, sensor_half_mm}, 0.0, all.max_field, options.max_halvings)};
+  return {ghost, fit_lit_zones({all, options, rays, sensor_half_mm}, all.max_field)};
 }
 
 class Fingerprint {
@@ -86,6 +114,18 @@ class Fingerprint {
   std::uint64_t hash_ = kSplitMixIncrement;
 };
 
+// A number that differs for apertures and obscurations that differ; 0 for a disc without any.
+double opening_of(const SurfaceState& surface) {
+  const Obscuration& within = surface.obscuration;
+  double sum = 1.1 * within.half_mm.x + 1.3 * within.half_mm.y + 1.7 * within.centre_mm.x + 1.9 * within.centre_mm.y +
+               2.3 * within.rotation_rad;
+  const ClearAperture& aperture = surface.aperture;
+  if (aperture.kind != ApertureKind::Disc)
+    sum += 100.0 * static_cast<double>(aperture.kind) + 2.9 * aperture.half_mm.x + 3.1 * aperture.half_mm.y +
+           3.7 * aperture.centre_mm.x + 4.1 * aperture.centre_mm.y + 4.3 * aperture.rotation_rad;
+  return sum;
+}
+
 }  // namespace
 }  // namespace contrejour::inline internal::polynomial
 
@@ -96,11 +136,13 @@ using namespace polynomial;
 std::uint64_t polynomial_fingerprint(const LensState& lens) {
   Fingerprint fingerprint;
   fingerprint.add(lens.sensor_z_mm);
+  fingerprint.add(lens.absorption ? 1.0 : 0.0);
   for (const double lambda_nm : {450.0, 550.0, 650.0}) {
     const ReflectanceTables tables(lens, lambda_nm);
     for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
       const SurfaceState& surface = lens.surfaces[k];
       fingerprint.add(surface.z_mm);
+      fingerprint.add(opening_of(surface));
       if (surface.kind == SurfaceKind::Stop) continue;
       fingerprint.add(surface.curvature_per_mm);
       fingerprint.add(surface.semi_diameter_mm);
@@ -133,7 +175,11 @@ Result<LensPolynomials> fit_polynomials(const LensState& lens, const PolynomialO
   all.stop_radius_mm = open.stop_radius_mm;
   all.pixel_mm = lens.sensor_width_mm / kPixelsAcross;
   all.max_field = largest_field(lens, options);
-  const std::vector<Ghost> ghosts = enumerate_ghosts(lens, options.scope, options.reflections);
+  const std::vector<Ghost> ghosts =
+      options.ghosts.empty() ? enumerate_ghosts(lens, options.scope, options.reflections) : options.ghosts;
+  for (const Ghost& ghost : ghosts)
+    if (!has_ghost(lens, ghost))
+      return invalid_argument(fmt::format("there is no ghost {} in this lens", ghost_name(ghost)));
   std::vector<GhostPolynomials> fitted(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t k) { fitted[k] = fit_ghost(open, steps, all, options, ghosts[k]); });

@@ -15,6 +15,7 @@ namespace contrejour::inline internal::polynomial {
 namespace {
 
 constexpr int kFields = 19, kRaysAtField = 72;
+constexpr int kRimRaysAtField = 400;  // at one wavelength, that show which rims block
 constexpr int kMinDegree = 2;  // order 5
 // Chebyshev-Lobatto wavelengths: every third one suffices for positions, which vary less than transmittances.
 constexpr int kWavelengths = 13, kWavelengthStep = 3;
@@ -25,8 +26,13 @@ constexpr double kFarthestLight = 1.15, kFarthestEdge = 2.0;
 constexpr double kFallLight = 32.0, kFallEdge = 20.0;
 constexpr double kNearSensor = 1.6;   // half diagonals: rays that land farther out count less
 constexpr double kSamplesPerUnknown = 2.0;
-constexpr double kOpenLimit = 1.02, kBlockingRim = 0.98;  // squared relative heights, next to an edge
-constexpr double kRoom = 1.02;        // of the pupil radius, around the bounds
+// Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
+// of them. Without a ridge their coefficients grow until float cannot hold the differences.
+constexpr double kRidge = 1e-7;
+// Squared relative heights next to an edge, wide enough that the few rays there show which rim is the outermost, and by
+// how much a rim must exceed the others.
+constexpr double kOpenLimit = 1.12, kBlockingRim = 0.88, kOutermostBy = 0.004;
+constexpr double kRoom = 1.02;  // of the pupil radius, around the bounds
 
 double lobatto(int k, int count) { return std::cos(std::numbers::pi * k / (count - 1)); }
 
@@ -111,21 +117,27 @@ FitRays fit_rays(const ZoneProblem& problem, const PolynomialZone& zone) {
   return out;
 }
 
-// The steps whose rims block light that nothing else blocks: the one that blocks most comes first.
-std::vector<int> blocking_steps(const FitRays& rays) {
-  const RayTable& table = rays.middle();
-  const std::vector<std::size_t>& used = rays.for_edges.used;
-  std::vector<int> steps;
-  std::vector<double> limits(used.size(), 0.0);  // squared, of the stop and of the steps found so far
-  for (std::size_t k = 0; k < limits.size(); ++k)
+// The steps whose rims block light that nothing else blocks: the one that blocks most comes first. table: at the middle
+// wavelength.
+std::vector<int> blocking_steps(const RayTable& table) {
+  std::vector<std::size_t> used;
+  std::vector<double> limits;  // squared, of the stop and of the steps found so far
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    if (!(table.clearance(k) < kFarthestEdge)) continue;
+    used.push_back(k);
+    limits.push_back(0.0);
     for (const auto& crossing : table.stop)
-      limits[k] = std::max(limits[k], std::pow(std::hypot(crossing[0][used[k]], crossing[1][used[k]]), 2.0));
+      limits.back() = std::max(limits.back(), std::pow(std::hypot(crossing[0][k], crossing[1][k]), 2.0));
+  }
+  std::vector<int> steps;
   for (;;) {
     int most = 0, found = -1;
     for (std::size_t step = 0; step < table.rim_squared.size(); ++step) {
       int count = 0;
-      for (std::size_t k = 0; k < limits.size(); ++k)
-        count += limits[k] < kOpenLimit && table.rim_squared[step][used[k]] > kBlockingRim ? 1 : 0;
+      for (std::size_t k = 0; k < limits.size(); ++k) {
+        const double height = table.rim_squared[step][used[k]];
+        count += limits[k] < kOpenLimit && height > std::max(kBlockingRim, limits[k] + kOutermostBy) ? 1 : 0;
+      }
       if (count > most && std::ranges::find(steps, static_cast<int>(step)) == steps.end())
         most = count, found = static_cast<int>(step);
     }
@@ -154,7 +166,7 @@ class Systems {
 
   const LeastSquares& made(Made& all, int degree, bool of_vectors) {
     auto& one = all[static_cast<std::size_t>(degree)];
-    if (!one) one.emplace(matrix(degree, of_vectors));
+    if (!one) one.emplace(matrix(degree, of_vectors), kRidge);
     return *one;
   }
 
@@ -313,7 +325,9 @@ bool fit_outputs(const ZoneProblem& problem, const FitRays& rays, const ZoneChec
         [&](const ChebyshevVector& stop) { return check.stop_errors(stop, c); });
     accuracy.edge_p95 = std::max(accuracy.edge_p95, p95);
   }
-  for (const int step : blocking_steps(rays)) {
+  const RayTable for_rims =
+      problem.rays.trace(starts_within(zone.bounds, kRimRaysAtField, 1), wavelength_at(problem.lens, 0.0));
+  for (const int step : blocking_steps(for_rims)) {
     PolynomialRim& rim = zone.rims.emplace_back(PolynomialRim{step, {}});
     const double p95 = raise_degree(
         edges, max_degree, edge_target, rim.squared,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "polynomial/least_squares.h"
 
+#include <cmath>
+
 #include <Eigen/QR>
 
 namespace contrejour::inline internal::polynomial {
@@ -11,17 +13,22 @@ struct LeastSquares::State {
   Eigen::HouseholderQR<Eigen::MatrixXd> qr;
 };
 
-LeastSquares::LeastSquares(const Rows& matrix) : state_(std::make_unique<State>()) {
-  state_->qr.compute(Eigen::Map<const Matrix>(matrix.values.data(), static_cast<Eigen::Index>(matrix.rows()),
-                                              static_cast<Eigen::Index>(matrix.columns)));
+LeastSquares::LeastSquares(const Rows& matrix, double ridge) : state_(std::make_unique<State>()) {
+  const auto rows = static_cast<Eigen::Index>(matrix.rows()), columns = static_cast<Eigen::Index>(matrix.columns);
+  Eigen::MatrixXd all(rows + columns, columns);
+  all.topRows(rows) = Eigen::Map<const Matrix>(matrix.values.data(), rows, columns);
+  all.bottomRows(columns) = Eigen::MatrixXd::Identity(columns, columns) * ridge * std::sqrt(static_cast<double>(rows));
+  state_->qr.compute(all);
 }
 LeastSquares::~LeastSquares() = default;
 LeastSquares::LeastSquares(LeastSquares&&) noexcept = default;
 LeastSquares& LeastSquares::operator=(LeastSquares&&) noexcept = default;
 
 std::vector<double> LeastSquares::solve(std::span<const double> right) const {
-  const Eigen::VectorXd unknowns =
-      state_->qr.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), static_cast<Eigen::Index>(right.size())));
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(state_->qr.rows());
+  const auto rows = static_cast<Eigen::Index>(right.size());
+  all.head(rows) = Eigen::Map<const Eigen::VectorXd>(right.data(), rows);
+  const Eigen::VectorXd unknowns = state_->qr.solve(all);
   return {unknowns.data(), unknowns.data() + unknowns.size()};
 }
 

@@ -20,7 +20,9 @@ struct Rows {
 
 class LeastSquares {
  public:
-  explicit LeastSquares(const Rows& matrix);
+  // ridge: adds the squares of the unknowns times this squared to the mean of the squares that are minimised, so that
+  // the unknowns stay small where the rows do not determine them.
+  LeastSquares(const Rows& matrix, double ridge);
   ~LeastSquares();
   LeastSquares(LeastSquares&&) noexcept;
   LeastSquares& operator=(LeastSquares&&) noexcept;

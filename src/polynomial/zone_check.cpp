@@ -14,7 +14,7 @@ constexpr std::array kTestedWavelengths{-0.86, -0.11, 0.57};  // coordinates, no
 constexpr double kLandingNear = 1.1;  // of its size
 constexpr std::size_t kFewRays = 16;
 // A ray that passes an edge outside by this fraction of its radius must not be let through.
-constexpr double kBlockedBy = 0.03;
+constexpr double kBlockedBy = 0.01;
 
 std::vector<double> sorted(std::vector<double> values) {
   std::ranges::sort(values);
@@ -34,7 +34,7 @@ ZoneCheck::ZoneCheck(const LensPolynomials& lens, const GhostRays& rays, const P
   const double low = zone.field_low * zone.field_low, high = zone.field_high * zone.field_high;
   std::vector<PolynomialBounds> bounds;
   for (int k = 0; k < kTestedFields; ++k)
-    bounds.push_back(bounds_between(zone.bounds, std::sqrt(low + (high - low) * (k + 0.5) / kTestedFields)));
+    bounds.push_back(bounds_between(zone, std::sqrt(low + (high - low) * (k + 0.5) / kTestedFields)));
   starts_ = starts_within(bounds, kTestedAtField, kFirstIndex);
   for (const RayStart& start : starts_) points_.push_back(zone_point(zone, start.field, start.entrance_mm));
   for (const double coordinate : kTestedWavelengths) {

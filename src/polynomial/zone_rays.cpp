@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "polynomial/chebyshev_basis.h"
 #include "render/pupils/ghost_pupil.h"
 
 namespace contrejour::inline internal::polynomial {
@@ -105,14 +106,16 @@ std::vector<RayStart> starts_within(std::span<const PolynomialBounds> bounds, in
   return starts;
 }
 
-PolynomialBounds bounds_between(std::span<const PolynomialBounds> bounds, double field) {
+PolynomialBounds bounds_between(const PolynomialZone& zone, double field) {
   const auto at = static_cast<float>(field);
-  for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
-    const PolynomialBounds &a = bounds[k], &b = bounds[k + 1];
+  const auto centre = static_cast<float>(centre_at(zone, field));
+  for (std::size_t k = 0; k + 1 < zone.bounds.size(); ++k) {
+    const PolynomialBounds &a = zone.bounds[k], &b = zone.bounds[k + 1];
     if (at < a.field || at > b.field || !has_light(a) || !has_light(b)) continue;
-    const float t = b.field > a.field ? (at - a.field) / (b.field - a.field) : 0.0F;
-    const auto mix = [&](float from, float to) { return from + t * (to - from); };
-    return {at, mix(a.low_x_mm, b.low_x_mm), mix(a.high_x_mm, b.high_x_mm), mix(a.half_y_mm, b.half_y_mm)};
+    const auto centre_a = static_cast<float>(centre_at(zone, a.field));
+    const auto centre_b = static_cast<float>(centre_at(zone, b.field));
+    return {at, centre + std::min(a.low_x_mm - centre_a, b.low_x_mm - centre_b),
+            centre + std::max(a.high_x_mm - centre_a, b.high_x_mm - centre_b), std::max(a.half_y_mm, b.half_y_mm)};
   }
   return {at, 0.0F, 0.0F, 0.0F};
 }

@@ -59,7 +59,8 @@ class GhostRays {
                                                   std::size_t first);
 
 [[nodiscard]] inline bool has_light(const PolynomialBounds& bounds) { return bounds.low_x_mm < bounds.high_x_mm; }
-// Bounds at any field between two with light, interpolated; none elsewhere.
-[[nodiscard]] PolynomialBounds bounds_between(std::span<const PolynomialBounds> bounds, double field);
+// Bounds at any field of a zone between two with light: those of both about the centre of pupil coordinates, which
+// follows the pupil; none elsewhere.
+[[nodiscard]] PolynomialBounds bounds_between(const PolynomialZone& zone, double field);
 
 }  // namespace contrejour::inline internal::polynomial

@@ -46,8 +46,11 @@ const Parameter kMethodTable[] = {
      .help = "tiled: interpolation within a cell",
      .choices = {"triangle", "homogeneous-triangle", "mean-value", "wachspress", "loop-derose"}},  // in enum order
     {.name = "error", .group = "Rendering", .unit = "E|QUALITY", .fallback = "standard",
-     .help = "adaptive: limit of the RMS error relative to the flare's peak, 0.0001 to 0.1; preview is 0.01, standard "
+     .help = "adaptive, polynomial: limit of the RMS error relative to the flare's peak, 0.0001 to 0.1; preview is 0.01, standard "
              "0.003, final 0.001", .check = parses<parse_error_bound>},
+    {.name = "fit", .group = "Rendering", .unit = "FILE",
+     .help = "polynomial: fit of this lens at these settings, written by `contrejour polynomial fit`; without it, the "
+             "ghosts are fitted first"},
     {.name = "density", .group = "Rendering", .kind = Kind::Real, .minimum = 0.05, .maximum = 16, .fallback = "1",
      .help = "reference: sampling density; 2 halves the side of the cells"},
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values -> the options of the methods and the settings of a frame.
+#include "contrejour/expert/polynomial_method.h"
 #include "contrejour/expert/settings.h"
 #include "settings/choice.h"
 
@@ -22,6 +23,10 @@ GhostOptions ghost_options(const Values& values) {
   options.jitter = values.number("ghost-jitter");
   options.jitter_seed = static_cast<std::uint32_t>(values.integer("ghost-seed"));
   return options;
+}
+
+PolynomialRenderOptions polynomial_options(const Values& values) {
+  return {.error = *parse_error_bound(*values.text("error")), .file = values.text("fit").value_or("")};
 }
 
 RingingOptions ringing_options(const Values& values) {
@@ -74,6 +79,7 @@ Result<MethodOptions> method_options(const Values& values, std::string_view meth
   auto options = contrejour::method_options(method);
   if (!options) return options;
   if (auto* const adaptive = options->get_if<AdaptiveOptions>()) *adaptive = adaptive_options(values);
+  if (auto* const polynomial = options->get_if<PolynomialRenderOptions>()) *polynomial = polynomial_options(values);
   if (auto* const bundle = options->get_if<BundleOptions>()) *bundle = bundle_options(values);
   if (auto* const tiled = options->get_if<TiledOptions>()) *tiled = tiled_options(values);
   if (auto* const reference = options->get_if<ReferenceOptions>()) *reference = reference_options(values);

@@ -7,7 +7,9 @@
 
 #include <doctest/doctest.h>
 
+#include "contrejour/expert/polynomial_method.h"
 #include "contrejour/render.h"
+#include "support/fits.h"
 
 namespace contrejour::test {
 
@@ -18,9 +20,10 @@ struct Settings : FrameSettings {
   BundleOptions bundle;
   TiledOptions tiled;
   ReferenceOptions reference;
+  PolynomialRenderOptions polynomial;
 
   void set_grid(int rays) { bundle.grid.rays = tiled.grid.rays = rays; }
-  void set_error(double error) { adaptive.error = area_error = error; }
+  void set_error(double error) { adaptive.error = polynomial.error = area_error = error; }
 
   // Errors: there is no such method.
   [[nodiscard]] Result<MethodOptions> options(std::string_view method) const {
@@ -30,13 +33,23 @@ struct Settings : FrameSettings {
     if (auto* const own = all->get_if<BundleOptions>()) *own = bundle;
     if (auto* const own = all->get_if<TiledOptions>()) *own = tiled;
     if (auto* const own = all->get_if<ReferenceOptions>()) *own = reference;
+    if (auto* const own = all->get_if<PolynomialRenderOptions>()) *own = polynomial;
     return all;
   }
 };
 
+// The same, with a fit of the lens where the method draws from one.
+inline Result<MethodOptions> options_for(std::string_view method, const LensState& lens, const Settings& settings) {
+  auto options = settings.options(method);
+  if (!options) return options;
+  if (auto* const own = options->get_if<PolynomialRenderOptions>())
+    if (!own->fit && own->file.empty()) own->fit = shared_fit(lens, settings);
+  return options;
+}
+
 inline Result<Flare> render(std::string_view method, const LensState& lens, std::span<const Light> lights,
                             const Settings& settings, const Context& context = {}) {
-  const auto options = settings.options(method);
+  const auto options = options_for(method, lens, settings);
   if (!options) return tl::unexpected(options.error());
   return contrejour::render(*options, lens, lights, settings, context);
 }

@@ -37,6 +37,7 @@ struct PolynomialOptions {
   int max_halvings = 3;  // of the field, where a ghost fails; 0 to 4
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
+  std::vector<Ghost> ghosts = {};  // if any: only these, whatever the scope
 };
 
 // A function of u, v, w and the wavelength as a sum of products of Chebyshev polynomials. Coefficients by degree in the

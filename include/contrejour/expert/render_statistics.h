@@ -22,6 +22,9 @@ struct RenderStatistics {
   // The fraction of the flare's flux that selection left out; nullopt where selection does not depend on flux (a list,
   // a surface), since measuring every ghost may take longer than rendering the chosen ones.
   std::optional<double> ghosts_skipped_flux;
+  // Only for `polynomial`: the fraction of the light in the frame whose ghosts the fit does not accept, so that their
+  // rays are traced.
+  std::optional<double> traced_flux;
   std::uint64_t peak_memory_bytes = 0;
 
   // Only for `tiled`, where `primitives` counts primitives before merging.

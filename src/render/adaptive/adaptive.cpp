@@ -203,6 +203,17 @@ void sort_by_layer(std::vector<Item>& items, std::vector<ItemEstimate>& estimate
   estimates = std::move(sorted_estimates);
 }
 
+// The fraction of the light of the preview frame whose items are traced.
+double traced_fraction(std::span<const Item> items, std::span<const ItemEstimate> estimates) {
+  double traced = 0.0, sum = 0.0;
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const double light = estimates[k].level * estimates[k].area_px;
+    sum += light;
+    if (!items[k].is_fitted) traced += light;
+  }
+  return sum > 0.0 ? traced / sum : 0.0;
+}
+
 void paint_layers(FramePainter& painter, std::size_t layer_count, std::vector<Item>& items,
                   std::vector<ItemEstimate>& estimates, DrawnFlare& flare) {
   sort_by_layer(items, estimates);
@@ -218,7 +229,12 @@ void paint_layers(FramePainter& painter, std::size_t layer_count, std::vector<It
 
 Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOptions& options,
                                    const Context& context) {
-  if (const auto good = check_error_bound(options.error); !good) return tl::unexpected(good.error());
+  return draw_adaptive(planned, options.error, nullptr, context);
+}
+
+Result<DrawnFlare> draw_adaptive(const PlannedFrame& planned, double error, const pupils::FittedGhosts* fitted,
+                                 const Context& context) {
+  if (const auto good = check_error_bound(error); !good) return tl::unexpected(good.error());
   const auto& [lens, plan, settings, cache] = planned;
   const Frame& frame = settings.frame;
   Stopwatch whole;
@@ -230,7 +246,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   }
 
   DrawnFlare flare;
-  const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris)};
+  const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris), fitted};
   Context quiet = context;
   quiet.progress = {};
   Work work;
@@ -243,7 +259,8 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   PreviewFrame preview = draw_preview(scene, items, frame, scratch->cells, scratch->rasteriser, quiet, work);
   if (context.cancelled()) return interrupted();
   const bool dark = !(preview.peak > 0.0);
-  const FrameError allowed{options.error, std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
+  const double traced_flux = traced_fraction(items, preview.estimates);
+  const FrameError allowed{error, std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
                            static_cast<double>(frame.width) * frame.height};
   if (stops.on() && !dark) work.add(set_stop_patterns(scene, stops, items, preview.estimates, allowed, quiet));
   if (context.cancelled()) return interrupted();
@@ -266,6 +283,7 @@ Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOp
   work.add(painter.work());
   RenderStatistics& stats = flare.statistics;
   stats.method = "adaptive";
+  if (fitted != nullptr) stats.traced_flux = traced_flux;
   stats.rays = work.rays;
   stats.surface_hits = work.surface_hits;
   stats.primitives = painter.primitives();

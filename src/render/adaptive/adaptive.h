@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/planning/method.h"
+#include "render/pupils/ray_source.h"
 
 namespace contrejour::inline internal {
 
@@ -9,6 +10,10 @@ namespace contrejour::inline internal {
 // no more cells than its part of the allowed error requires (docs/physics/adaptive.md).
 [[nodiscard]] Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOptions& options,
                                                  const Context& context);
+
+// The same at an error, with the rays of a fit; null: all are traced.
+[[nodiscard]] Result<DrawnFlare> draw_adaptive(const PlannedFrame& planned, double error,
+                                               const pupils::FittedGhosts* fitted, const Context& context);
 
 inline constexpr Method kAdaptive = method_of<AdaptiveOptions, render_adaptive>({.spends_error = true});
 

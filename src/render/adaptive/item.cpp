@@ -11,6 +11,7 @@
 #include "contrejour/expert/metrics.h"
 #include "render/adaptive/budget/preview.h"
 #include "render/adaptive/emit/shared_edges.h"
+#include "render/pupils/fitted_pupil.h"
 #include "render/pupils/ghost_pupil.h"
 
 namespace contrejour::inline internal::adaptive {
@@ -34,8 +35,28 @@ Work take_boxes(Item& item, GhostPupil pupil) {
   return {pupil.rays, pupil.surface_hits};
 }
 
-Work find_boxes(const Scene& scene, Item& item) {
+// The item's fit; null where its rays must be traced.
+std::unique_ptr<FittedGhost> fit_of(const Scene& scene, const Item& item, const LightFrame& light) {
+  const std::vector<PlannedPass>& passes = item.light->passes;
+  if (scene.fitted == nullptr || passes.empty() || !light.symmetric) return nullptr;
+  return scene.fitted->find({item.ghost, light, item.window.z_mm, scene.lens.stop_radius_mm * stop_times(item),
+                             passes.front().lambda_nm, passes.back().lambda_nm});
+}
+
+// Finds the boxes of a fitted item; false if it is traced.
+bool find_fitted_boxes(const Scene& scene, Item& item, std::span<const double> lambda_nm) {
+  const LightFrame light(item.light->source, has_axial_symmetry(scene.lens, item.ghost));
+  const std::unique_ptr<FittedGhost> fitted = fit_of(scene, item, light);
+  item.is_fitted = fitted != nullptr;
+  if (fitted) item.boxes = find_fitted_pupil(*fitted, lambda_nm);
+  return item.is_fitted;
+}
+
+// known: the item's pupil if the selection found it, else null.
+Work find_boxes(const Scene& scene, Item& item, const GhostPupil* known) {
   const std::vector<double> lambda_nm = wavelengths_of(*item.light);
+  if (find_fitted_boxes(scene, item, lambda_nm)) return {};
+  if (known != nullptr) return take_boxes(item, *known);
   return take_boxes(item, scene.plan.kept_pupils->find_ghost_pupil(request_of(scene, item, lambda_nm)));
 }
 
@@ -43,8 +64,17 @@ Work find_boxes(const Scene& scene, Item& item) {
 
 Work widen_boxes(const Scene& scene, Item& item) {
   const std::vector<double> lambda_nm = wavelengths_of(*item.light);
+  const bool was_fitted = item.is_fitted;
+  if (was_fitted && find_fitted_boxes(scene, item, lambda_nm)) return {};
   const PupilRequest request = request_of(scene, item, lambda_nm);
-  return take_boxes(item, scene.plan.kept_pupils->refit_ghost_pupil(request, std::move(item.boxes)));
+  Work work;
+  if (was_fitted) {  // the fit does not extend to the enlarged stop
+    PupilRequest sharp = request;
+    sharp.stop_times = 1.0;
+    work = take_boxes(item, scene.plan.kept_pupils->find_ghost_pupil(sharp));
+  }
+  work.add(take_boxes(item, scene.plan.kept_pupils->refit_ghost_pupil(request, std::move(item.boxes))));
+  return work;
 }
 
 namespace {
@@ -81,6 +111,9 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
+// The rays of a fitted item in the preview frame count as those of a typical traced one: more of them cost little.
+constexpr double kRaysOfFitted = 110.0;
+
 // Preview: the rays of one wavelength serve for all.
 enum class Quality { Preview, Low, Full };
 
@@ -92,7 +125,8 @@ TessellatedItem tessellate(const Scene& scene, const Item& item, Quality quality
   const IrisShape& iris = item.patterns ? round_iris() : scene.iris;
   std::vector<PlannedPass> passes = passes_of(item);
   if (quality == Quality::Preview) passes = {merged(scene, item, passes)};
-  GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item));
+  const std::unique_ptr<FittedGhost> fitted = item.is_fitted ? fit_of(scene, item, light) : nullptr;
+  GhostTracers tracers(scene.steps, item.ghost, light, item.window.z_mm, passes, stop_times(item), fitted.get());
   const auto scratch = scratch_pool.lend();
   GhostTessellator tessellator(tracers, iris, frame, quality == Quality::Full ? kMaxDepth : kPeakMaxDepth, *scratch,
                                item.patterns.get(), item.shadows);
@@ -103,7 +137,8 @@ TessellatedItem tessellate(const Scene& scene, const Item& item, Quality quality
     tessellator.tessellate(box, has_image, budget, tessellated.polygons);
   }
   share_edges(tessellated.polygons, whole.width, whole.height);
-  tessellated.work = {tracers.rays(), tracers.surface_hits()};
+  tessellated.work = {tracers.traced_rays(), tracers.surface_hits()};
+  tessellated.rays = tracers.rays();
   return tessellated;
 }
 
@@ -151,9 +186,8 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
   });
   std::vector<Work> done(items.size());
   const std::vector<GhostPupil>& known = scene.plan.pupils;
-  parallel_for(items.size(), context, [&](std::size_t k) {
-    done[k] = known.empty() ? find_boxes(scene, items[k]) : take_boxes(items[k], known[k]);
-  });
+  parallel_for(items.size(), context,
+               [&](std::size_t k) { done[k] = find_boxes(scene, items[k], known.empty() ? nullptr : &known[k]); });
   for (const Work& w : done) work.add(w);
   return items;
 }
@@ -179,7 +213,8 @@ PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, co
   parallel_for(items.size(), context, [&](std::size_t k) {
     TessellatedItem tessellated = tessellate(scene, items[k], Quality::Preview, small, unlimited, scratch_pool);
     done[k] = tessellated.work;
-    preview.estimates[k] = {level_of(tessellated.polygons, scale), static_cast<double>(done[k].rays)};
+    preview.estimates[k] = {level_of(tessellated.polygons, scale),
+                            std::min(static_cast<double>(tessellated.rays), items[k].is_fitted ? kRaysOfFitted : 1e9)};
     batch->set(k, std::move(tessellated.polygons));
   });
   for (const Work& w : done) work.add(w);

@@ -16,10 +16,11 @@ struct Scene {
   const FramePlan& plan;
   StepsByWavelength steps;  // for the wavelengths of the plan
   IrisShape iris;
+  const FittedGhosts* fitted = nullptr;  // null: all rays are traced
 };
 
 struct Work {
-  std::uint64_t rays = 0, surface_hits = 0;
+  std::uint64_t rays = 0, surface_hits = 0;  // traced
   void add(const Work& other) {
     rays += other.rays;
     surface_hits += other.surface_hits;
@@ -38,6 +39,7 @@ struct Item {
   std::vector<std::shared_ptr<const DirtShadows>> shadows = {};
   double dirt_transmittance = 1.0;  // the item is dimmed by this transmittance
   bool is_negligible = false;     // drawn in preview quality, at all wavelengths
+  bool is_fitted = false;  // its rays are evaluated
 };
 
 // One item for each ghost and light, in the order of the plan.
@@ -46,6 +48,7 @@ struct Item {
 struct TessellatedItem {
   PolygonList polygons;
   Work work;
+  std::uint64_t rays = 0;  // traced or evaluated
 };
 
 // Widens the item's boxes to contain the light that its stop patterns transmit.

@@ -24,6 +24,7 @@ Phases::iterator total_with(Phases& phases, double ms) {
 void add(RenderStatistics& sum, const RenderStatistics& one) {
   sum.method = one.method;
   sum.device = one.device;
+  if (one.traced_flux) sum.traced_flux = std::max(sum.traced_flux.value_or(0.0), *one.traced_flux);
   sum.rays += one.rays;
   sum.surface_hits += one.surface_hits;
   sum.primitives += one.primitives;

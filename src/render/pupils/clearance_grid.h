@@ -21,6 +21,7 @@ class ClearanceGrid {
  public:
   // path: from any point of the entrance plane.
   explicit ClearanceGrid(PacketPath path) : rays_(std::move(path)) {}
+  explicit ClearanceGrid(std::shared_ptr<RaySource> source) : rays_(std::move(source)) {}
 
   // box: y >= 0.
   void trace(const Rectangle& box, int columns, int rows);

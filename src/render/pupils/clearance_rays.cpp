@@ -18,9 +18,8 @@ void ClearanceRays::trace(Vec2 origin_mm, PacketPrecision precision) {
     out.stop_x[c] = to(kStop + 2 * c);
     out.stop_y[c] = to(kStop + 2 * c + 1);
   }
-  path_.start_from(origin_mm);
-  trace_clearance(path_, precision, x_mm_.data(), y_mm_.data(), count_, out);
-  rays_ += count_;
+  source_->clearances(origin_mm, precision, x_mm_.data(), y_mm_.data(), count_, out);
+  if (source_->surfaces() > 0) rays_ += count_;
 }
 
 }  // namespace contrejour::inline internal::pupils

@@ -6,12 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "contrejour/expert/trace.h"
-#include "optics/trace/clearance.h"
+#include "render/pupils/ray_source.h"
 
 namespace contrejour::inline internal::pupils {
 
@@ -21,7 +22,8 @@ class ClearanceRays {
   static constexpr std::size_t kFailing = 0, kPassed = 1, kRim = 2, kStop = 4, kFields = kStop + 2 * kMaxStopCrossings;
 
   // path: from any point of the entrance plane.
-  explicit ClearanceRays(PacketPath path) : path_(std::move(path)) {}
+  explicit ClearanceRays(PacketPath path) : source_(std::make_shared<TracedRays>(std::move(path))) {}
+  explicit ClearanceRays(std::shared_ptr<RaySource> source) : source_(std::move(source)) {}
 
   // Makes room for the starts of this number of rays, all at the origin.
   void resize(std::size_t count);
@@ -31,8 +33,8 @@ class ClearanceRays {
   void trace(Vec2 origin_mm, PacketPrecision precision);
 
   [[nodiscard]] std::size_t count() const { return count_; }
-  [[nodiscard]] int crossings() const { return path_.stop_crossings(); }
-  [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }
+  [[nodiscard]] int crossings() const { return source_->stop_crossings(); }
+  [[nodiscard]] std::size_t steps() const { return source_->surfaces(); }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }  // traced so far
   [[nodiscard]] const float* field(std::size_t k) const { return fields_.data() + k * padded_; }
   [[nodiscard]] bool fails(std::size_t ray) const { return field(kFailing)[ray] != 0.0F; }
@@ -42,7 +44,7 @@ class ClearanceRays {
   }
 
  private:
-  PacketPath path_;
+  std::shared_ptr<RaySource> source_;  // which copies share
   std::size_t count_ = 0, padded_ = 0;
   std::uint64_t rays_ = 0;
   std::vector<float> x_mm_, y_mm_, fields_;

@@ -44,7 +44,7 @@ void interpolate_transmissions(FirstRays& rays, const WavelengthSamples& samples
 double largest_weight(const FirstRays& rays, const LobattoRays& middle, std::span<const PlannedPass> passes) {
   double largest = 0.0;
   for (std::size_t node = 0; node < middle.count(); ++node) {
-    if (std::isinf(middle.relative_height[node])) continue;
+    if (!middle.counts(node)) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       double sum = 0.0;
       for (std::size_t k = 0; k < passes.size(); ++k)
@@ -52,6 +52,13 @@ double largest_weight(const FirstRays& rays, const LobattoRays& middle, std::spa
       largest = std::max(largest, std::abs(sum));
     }
   }
+  return largest;
+}
+
+float largest_transmission(const LobattoRays& ray_set) {
+  float largest = 0.0F;
+  for (std::size_t node = 0; node < ray_set.count(); ++node)
+    if (!ray_set.arrives(node) || ray_set.counts(node)) largest = std::max(largest, ray_set.transmission[node]);
   return largest;
 }
 
@@ -66,7 +73,7 @@ double sum_of(std::span<const float> values, const std::vector<bool>& counts) {
 bool predicts_pattern(FirstRays& rays, const WavelengthSamples& samples, std::size_t count,
                       const std::vector<bool>& counts, double allowed) {
   const std::vector<float>& is = rays.ray_sets[samples[count]].transmission;
-  const float largest = *std::max_element(is.begin(), is.end());
+  const float largest = largest_transmission(rays.ray_sets[samples[count]]);
   const double sum = sum_of(is, counts);
   for (const bool is_linear : {false, true}) {
     rays.is_linear = is_linear;
@@ -88,9 +95,8 @@ bool predicts_next(FirstRays& rays, const WavelengthSamples& samples, std::size_
   const std::vector<double> factors = samples.factors(count, samples[count]);
   std::vector<bool> arrives(next.count());
   for (std::size_t node = 0; node < next.count(); ++node) {
-    arrives[node] = std::isfinite(next.relative_height[node]);
-    for (std::size_t k = 0; k < count; ++k)
-      arrives[node] = arrives[node] && std::isfinite(rays.ray_sets[samples[k]].relative_height[node]);
+    arrives[node] = next.counts(node);
+    for (std::size_t k = 0; k < count; ++k) arrives[node] = arrives[node] && rays.ray_sets[samples[k]].counts(node);
   }
   const auto holds = [&](auto values, double allowed) {
     const std::vector<float>& is = values(next);
@@ -183,9 +189,13 @@ std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t 
 
 std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass) {
   std::array<double, 3> light{};
+  const auto traced = std::ranges::find_if(rays.ray_sets, [](const LobattoRays& set) { return set.nodes > 0; });
+  const std::vector<float>& transmission = rays.transmission[pass];
   for (std::size_t c = 0; c < 3; ++c) {
     const auto gain = static_cast<float>(passes[pass].gain[c]);
-    for (const float t : rays.transmission[pass]) light[c] += std::isfinite(t) ? gain * t : 0.0F;
+    for (std::size_t node = 0; node < transmission.size(); ++node)
+      if (!traced->arrives(node) || traced->counts(node))
+        light[c] += std::isfinite(transmission[node]) ? gain * transmission[node] : 0.0F;
   }
   return light;
 }

@@ -140,23 +140,25 @@ std::vector<std::size_t> rims_in_play(std::span<const LobattoRays> ray_sets) {
   return steps;
 }
 
-LobattoTracer::LobattoTracer(PacketPath path, const LightFrame& light)
-    : light_(light), path_(std::move(path)),
-      is_obscured_(std::ranges::any_of(path_.steps(), &PacketStep::blocks_within)) {}
+LobattoTracer::LobattoTracer(std::unique_ptr<RaySource> source, const LightFrame& light)
+    : light_(light), source_(std::move(source)) {
+  for (std::size_t rim = 0; rim < source_->rims(); ++rim) is_obscured_ = is_obscured_ || source_->blocks_within(rim);
+}
 
 LobattoRays LobattoTracer::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
   LobattoRays ray_set;
   ray_set.box = box;
   ray_set.nodes = nodes;
+  ray_set.reach = source_->reach();
   const std::size_t count = ray_set.count();
   for (auto* v : {&ray_set.sensor_x_mm, &ray_set.sensor_y_mm, &ray_set.relative_height, &ray_set.transmission})
     v->resize(count);
-  ray_set.stop.resize(static_cast<std::size_t>(path_.stop_crossings()));
+  ray_set.stop.resize(static_cast<std::size_t>(source_->stop_crossings()));
   for (auto& s : ray_set.stop) {
     s[0].resize(count);
     s[1].resize(count);
   }
-  ray_set.rim_squared.resize(steps() * count);
+  ray_set.rim_squared.resize(source_->rims() * count);
 
   const int first_row = first_traced_row(box, nodes);
   const auto at = static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes);
@@ -172,7 +174,9 @@ LobattoRays LobattoTracer::trace(const Rectangle& box, int nodes, PacketPrecisio
     out.stop_x[c] = ray_set.stop[c][0].data() + at;
     out.stop_y[c] = ray_set.stop[c][1].data() + at;
   }
-  trace_rows(box, nodes, first_row, precision, out);
+  set_starts(box, nodes, first_row);
+  source_->rays(box.low, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
+  weigh(box, out.transmission);
   if (first_row > 0) {
     complete(ray_set.sensor_x_mm.data(), nodes, 1.0F);
     complete(ray_set.sensor_y_mm.data(), nodes, -1.0F);
@@ -182,7 +186,8 @@ LobattoRays LobattoTracer::trace(const Rectangle& box, int nodes, PacketPrecisio
       complete(s[0].data(), nodes, 1.0F);
       complete(s[1].data(), nodes, -1.0F);
     }
-    for (std::size_t step = 0; step < steps(); ++step) complete(ray_set.rim_squared.data() + step * count, nodes, 1.0F);
+    for (std::size_t rim = 0; rim < source_->rims(); ++rim)
+      complete(ray_set.rim_squared.data() + rim * count, nodes, 1.0F);
   }
   if (is_obscured_) leave_obscurations_out(ray_set);
   ray_set.failed =
@@ -192,13 +197,12 @@ LobattoRays LobattoTracer::trace(const Rectangle& box, int nodes, PacketPrecisio
 
 // Removes obscurations from the relative heights, which searches assume to be those of convex openings.
 void LobattoTracer::leave_obscurations_out(LobattoRays& ray_set) const {
-  const std::vector<PacketStep>& steps = path_.steps();
-  for (const PacketStep& step : steps) ray_set.blocks_within.push_back(step.blocks_within);
+  for (std::size_t rim = 0; rim < source_->rims(); ++rim) ray_set.blocks_within.push_back(source_->blocks_within(rim));
   for (std::size_t node = 0; node < ray_set.count(); ++node) {
     if (ray_set.relative_height[node] == kFailed) continue;
     float squared = 0.0F;
-    for (std::size_t k = 0; k < steps.size(); ++k)
-      if (!steps[k].blocks_within) squared = std::max(squared, ray_set.rim_squared[k * ray_set.count() + node]);
+    for (std::size_t k = 0; k < source_->rims(); ++k)
+      if (!ray_set.blocks_within[k]) squared = std::max(squared, ray_set.rim_squared[k * ray_set.count() + node]);
     ray_set.relative_height[node] = std::sqrt(squared);
   }
 }
@@ -206,22 +210,11 @@ void LobattoTracer::leave_obscurations_out(LobattoRays& ray_set) const {
 std::vector<float> LobattoTracer::transmissions(const Rectangle& box, int nodes, PacketPrecision precision) {
   const auto count = static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes);
   std::vector<float> transmission(count);
-  scratch_.resize((3 + 2 * kMaxStopCrossings) * count);
-  const auto discarded = [&](std::size_t f) { return scratch_.data() + f * count; };
   const int first_row = first_traced_row(box, nodes);
-  TracedArrays out{discarded(0),
-                   discarded(1),
-                   transmission.data() + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes),
-                   discarded(2),
-                   {},
-                   {},
-                   nullptr,
-                   0};
-  for (std::size_t c = 0; c < static_cast<std::size_t>(path_.stop_crossings()); ++c) {
-    out.stop_x[c] = discarded(3 + 2 * c);
-    out.stop_y[c] = discarded(4 + 2 * c);
-  }
-  trace_rows(box, nodes, first_row, precision, out);
+  float* const out = transmission.data() + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(nodes);
+  set_starts(box, nodes, first_row);
+  source_->transmissions(box.low, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
+  weigh(box, out);
   if (first_row > 0) complete(transmission.data(), nodes, 1.0F);
   return transmission;
 }
@@ -231,8 +224,8 @@ int LobattoTracer::first_traced_row(const Rectangle& box, int nodes) const {
   return light_.symmetric && box.low.y == -box.high.y ? nodes / 2 : 0;
 }
 
-void LobattoTracer::trace_rows(const Rectangle& box, int nodes, int first_row, PacketPrecision precision,
-                               TracedArrays out) {
+// Sets the starts of the rows from the first traced one on, relative to the box's corner.
+void LobattoTracer::set_starts(const Rectangle& box, int nodes, int first_row) {
   const auto& points = lobatto_points(nodes);
   const Vec2 half = (box.high - box.low) * 0.5;
   x_mm_.clear();
@@ -245,11 +238,13 @@ void LobattoTracer::trace_rows(const Rectangle& box, int nodes, int first_row, P
       y_mm_.push_back(static_cast<float>(y));
     }
   }
-  path_.start_from(box.low);
-  trace_packets(path_, precision, x_mm_.data(), y_mm_.data(), x_mm_.size(), out);
   rays_ += x_mm_.size();
+}
+
+// Multiplies the transmissions of these starts by the area of the entrance plane that a part of the box stands for.
+void LobattoTracer::weigh(const Rectangle& box, float* transmission) const {
   for (std::size_t k = 0; k < x_mm_.size(); ++k)
-    out.transmission[k] *= static_cast<float>(curve_.jacobian_x(box.low.y + y_mm_[k]));
+    transmission[k] *= static_cast<float>(curve_.jacobian_x(box.low.y + y_mm_[k]));
 }
 
 }  // namespace contrejour::inline internal::ray_maps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact rays of one ghost and light at one wavelength, at the Lobatto points of a box of the entrance plane.
+// Rays of one ghost and light at one wavelength, at the Lobatto points of a box of the entrance plane: exact ones, or
+// those of a fit.
 // All in the light's meridional frame: the light comes from -x or along the axis, so a centred lens is symmetric
 // in y and half the rays are the mirror images of the others; hullin2011 4.2, "symmetries".
 #pragma once
@@ -16,6 +17,7 @@
 #include "ghosts/light_frame.h"
 #include "ghosts/ray_grid.h"
 #include "render/pupils/curved_box.h"
+#include "render/pupils/ray_source.h"
 
 namespace contrejour::inline internal::ray_maps {
 
@@ -28,6 +30,7 @@ constexpr float kNearlyThrough = 1.2F;
 struct LobattoRays {
   Rectangle box;  // mm, in the plane of the entrance window
   int nodes = 0;
+  float reach = std::numeric_limits<float>::infinity();  // RaySource::reach()
   int failed = 0;  // nodes whose ray does not arrive; their values are undefined
   std::vector<float> sensor_x_mm, sensor_y_mm;
   std::vector<float> transmission;
@@ -35,12 +38,14 @@ struct LobattoRays {
   std::array<double, 3> gain{1.0, 1.0, 1.0};                   // of weights to channels
   std::vector<float> relative_height;                  // infinite where the ray fails; without obscurations
   std::vector<std::array<std::vector<float>, 2>> stop;  // by crossing: x and y over the stop radius
-  std::vector<float> rim_squared;            // [step * nodes^2 + node]
-  std::vector<bool> blocks_within;           // by step; empty where none does
+  std::vector<float> rim_squared;            // [rim * nodes^2 + node]
+  std::vector<bool> blocks_within;           // by rim; empty where none does
 
   [[nodiscard]] bool arrives(std::size_t node) const {
     return relative_height[node] < std::numeric_limits<float>::infinity();
   }
+  // True if the node's values hold. Those of failing rays and those of fits far outside the light do not.
+  [[nodiscard]] bool counts(std::size_t node) const { return relative_height[node] < reach; }
   [[nodiscard]] bool blocks_at(std::size_t step) const { return !blocks_within.empty() && blocks_within[step]; }
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }
 };
@@ -66,8 +71,10 @@ using CellCorners = std::array<std::size_t, 4>;
 
 class LobattoTracer {
  public:
-  // path: of that light, from any point of the entrance plane.
-  LobattoTracer(PacketPath path, const LightFrame& light);
+  // source: of that light.
+  LobattoTracer(std::unique_ptr<RaySource> source, const LightFrame& light);
+  LobattoTracer(PacketPath path, const LightFrame& light)
+      : LobattoTracer(std::make_unique<TracedRays>(std::move(path)), light) {}
 
   // A ray set without weights. For a box that is its own mirror image half of the rays are traced.
   [[nodiscard]] LobattoRays trace(const Rectangle& box, int nodes, PacketPrecision precision);
@@ -77,20 +84,21 @@ class LobattoTracer {
   // Sets the curved sides of the boxes that follow.
   void curve(const SideCurve& curve) { curve_ = curve; }
 
-  [[nodiscard]] std::size_t steps() const { return path_.steps().size(); }
-  [[nodiscard]] std::uint64_t rays() const { return rays_; }
-  [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * steps(); }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }  // traced or evaluated
+  [[nodiscard]] std::uint64_t traced_rays() const { return source_->surfaces() > 0 ? rays_ : 0; }
+  [[nodiscard]] std::uint64_t surface_hits() const { return rays_ * source_->surfaces(); }
 
  private:
   [[nodiscard]] int first_traced_row(const Rectangle& box, int nodes) const;
-  void trace_rows(const Rectangle& box, int nodes, int first_row, PacketPrecision precision, TracedArrays out);
+  void set_starts(const Rectangle& box, int nodes, int first_row);
+  void weigh(const Rectangle& box, float* transmission) const;
   void leave_obscurations_out(LobattoRays& ray_set) const;
 
   LightFrame light_;
-  PacketPath path_;
-  bool is_obscured_;
+  std::unique_ptr<RaySource> source_;
+  bool is_obscured_ = false;
   SideCurve curve_;
-  std::vector<float> x_mm_, y_mm_, scratch_;
+  std::vector<float> x_mm_, y_mm_;
   std::uint64_t rays_ = 0;
 };
 

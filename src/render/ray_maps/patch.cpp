@@ -58,9 +58,14 @@ bool is_closed(const LobattoRays& ray_set, const std::array<std::size_t, 4>& cor
   return false;
 }
 
-double largest_size(const float* field, std::size_t count) {
+// Of the nodes that count, or of all if none does.
+double largest_size(const Patch& patch, int of_field) {
+  const float* const field = patch.field(of_field);
   float largest = 0.0F;
-  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(field[k]));
+  for (std::size_t k = 0; k < patch.counts.size(); ++k)
+    if (patch.counts[k]) largest = std::max(largest, std::abs(field[k]));
+  if (largest > 0.0F) return largest;
+  for (std::size_t k = 0; k < patch.size(); ++k) largest = std::max(largest, std::abs(field[k]));
   return largest;
 }
 
@@ -87,6 +92,8 @@ Patch make_patch(const LobattoRays& ray_set, const std::vector<std::size_t>& ste
   const Vec2 size = ray_set.box.high - ray_set.box.low;
   patch.flux_area_mm2 = size.x * size.y * light.source.shared_flux();
   patch.origin_px = origin_px;
+  if (std::isfinite(ray_set.reach))
+    for (std::size_t k = 0; k < ray_set.count(); ++k) patch.counts.push_back(ray_set.counts(k));
   for (std::size_t k = 0; k < ray_set.count(); ++k) {
     const Vec2 p = on_frame(ray_set, k, light, frame) - origin_px;
     patch.field(PatchLayout::kX)[k] = static_cast<float>(p.x);
@@ -124,6 +131,7 @@ void blend(std::span<const Patch> patches, const PatchBlend& factors, Patch& out
   out.nodes = first.nodes;
   out.box = first.box;
   out.origin_px = first.origin_px;
+  out.counts = first.counts;
   out.flux_area_mm2 = first.flux_area_mm2;
   out.gain = factors.gain;
   out.values.assign(static_cast<std::size_t>(out.layout.fields()) * first.size(), 0.0F);
@@ -189,9 +197,8 @@ PatchError estimated_error(const Patch& patch) {
     error.rim = std::max(error.rim, highest_terms(patch.field(layout.rim(k)), patch.nodes));
   double largest = 0.0;
   for (int k = 0; k < layout.weights; ++k) {
-    const float* field = patch.field(layout.weight(k));
-    largest = std::max(largest, largest_size(field, patch.size()));
-    error.weight = std::max(error.weight, highest_terms(field, patch.nodes));
+    largest = std::max(largest, largest_size(patch, layout.weight(k)));
+    error.weight = std::max(error.weight, highest_terms(patch.field(layout.weight(k)), patch.nodes));
   }
   if (largest > 0.0) error.weight /= largest;
   return error;
@@ -204,6 +211,7 @@ Patch quarter(const Patch& patch, int ix, int iy) {
   out.box.low = patch.box.low + Vec2{half.x * ix, half.y * iy};
   out.box.high = out.box.low + half;
   out.flux_area_mm2 = 0.25 * patch.flux_area_mm2;
+  out.counts.clear();
   for (int f = 0; f < patch.layout.fields(); ++f) {
     transform(patch.field(f), patch.nodes, m.half[static_cast<std::size_t>(ix)], m.half[static_cast<std::size_t>(iy)],
               out.field(f));

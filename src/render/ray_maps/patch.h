@@ -42,6 +42,7 @@ struct Patch {
   Vec2 origin_px;  // origin of positions
   double flux_area_mm2 = 0;  // the box's area times cos(theta): flux is gain x weight x this
   Rgb gain{1.0, 1.0, 1.0};  // per channel
+  std::vector<bool> counts;  // by node: its values hold (LobattoRays); empty: all do
   std::vector<float> values;  // [(field * nodes + row) * nodes + column]
 
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nodes) * static_cast<std::size_t>(nodes); }

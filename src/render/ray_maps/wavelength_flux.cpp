@@ -23,7 +23,7 @@ WavelengthFlux::WavelengthFlux(GhostTracers& tracers, std::span<const LobattoRay
     for (std::size_t ix = 0; ix < kNodes; ++ix) at_.push_back((iy * nodes + ix) * step);
   for (const std::size_t node : at_) {
     bool arrives = true;
-    for (std::size_t k = 0; k < count; ++k) arrives = arrives && ray_sets[samples[k]].arrives(node);
+    for (std::size_t k = 0; k < count; ++k) arrives = arrives && ray_sets[samples[k]].counts(node);
     counts_.push_back(arrives);
   }
 }

@@ -9,13 +9,14 @@
 
 #include "render/adaptive/adaptive.h"
 #include "render/bundle/bundle.h"
+#include "render/polynomial/polynomial.h"
 #include "render/reference/reference.h"
 #include "render/tiled/tiled.h"
 
 namespace contrejour::inline internal {
 
 std::span<const Method> all_methods() {
-  static constexpr std::array kMethods{kAdaptive, kBundle, kTiled, kReference};
+  static constexpr std::array kMethods{kAdaptive, kPolynomial, kBundle, kTiled, kReference};
   return kMethods;
 }
 

@@ -37,6 +37,8 @@ inline Bounds bounds_of(std::string_view method) {
       // The distribution of its error depends on all the light in the frame: this is the largest difference of two
       // pictures that may each have an RMS error of 0.003.
       {.method = "adaptive", .psnr_db = 50.0, .addition = 1e-2, .rms = AdaptiveOptions{}.error},
+      // The same, and the error of the fit.
+      {.method = "polynomial", .psnr_db = 48.0, .addition = 1e-2, .rms = 1.2 * AdaptiveOptions{}.error},
   };
   Bounds found{.method = method};
   for (const Bounds& bounds : all)

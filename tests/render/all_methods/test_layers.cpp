@@ -35,7 +35,7 @@ LayeredScene two_lights(int width = 36, int height = 24) {
 }
 
 LayeredFlare layers_of(const Bounds& method, const LayeredScene& scene, const LayerOptions& options) {
-  const auto own = scene.settings.options(method.method);
+  const auto own = test::options_for(method.method, scene.lens, scene.settings);
   REQUIRE(own.has_value());
   auto flare = render_layers(*own, scene.lens, scene.lights, scene.settings, options);
   REQUIRE_MESSAGE(flare.has_value(), (flare ? "" : flare.error().to_string()));

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of the method `polynomial`, which draws ghosts as `adaptive` does, with rays that are evaluated from a
+// fit (polynomial.h) where the fit accepts a ghost, and traced elsewhere. Thread-safety: plain values.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "contrejour/export.h"
+
+namespace contrejour {
+
+struct LensPolynomials;
+
+struct CONTREJOUR_API PolynomialRenderOptions {
+  static constexpr std::string_view kMethod = "polynomial";
+  double error = 0.003;  // limit of the RMS error, relative to the frame's peak, without the fit's; 1e-4 to 0.1
+  // The fit, or else its file. With neither, the ghosts that a frame needs are fitted, which takes about a tenth of a
+  // second each; a Renderer keeps them for its next frames. A fit of another lens is refused.
+  std::shared_ptr<const LensPolynomials> fit = nullptr;
+  std::filesystem::path file = {};
+};
+
+}  // namespace contrejour

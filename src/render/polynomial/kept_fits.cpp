@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/polynomial/kept_fits.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "contrejour/expert/polynomial.h"
+
+namespace contrejour::inline internal {
+namespace {
+
+using polynomial::FittedLens;
+using Fit = std::shared_ptr<const LensPolynomials>;
+
+// The fingerprint of a lens, which takes longer to find than a frame of few lights.
+struct KeptFingerprint {
+  struct Key {
+    std::vector<SurfaceState> surfaces;
+    double sensor_z_mm = 0.0;
+    bool absorption = false;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  explicit KeptFingerprint(const Key& /*key*/) {}
+  [[nodiscard]] static std::size_t memory_bytes() { return 0; }
+  std::optional<std::uint64_t> value;
+};
+
+std::uint64_t fingerprint_of(const PlannedFrame& planned) {
+  const std::shared_ptr<KeptFingerprint> kept = planned.cache.section<KeptFingerprint>(
+      {planned.lens.surfaces, planned.lens.sensor_z_mm, planned.lens.absorption});
+  if (!kept->value) kept->value = polynomial_fingerprint(planned.lens);
+  return *kept->value;
+}
+
+// A fit that was given, or read from a file.
+struct KeptFit {
+  struct Key {
+    Fit fit;
+    std::filesystem::path file;
+    std::filesystem::file_time_type written;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  explicit KeptFit(const Key& /*key*/) {}
+  [[nodiscard]] std::size_t memory_bytes() const { return lens ? lens->bytes() : 0; }
+  std::shared_ptr<const FittedLens> lens;
+};
+
+// A fit of the ghosts that frames needed so far. The sensor's size is that within which rays must land exactly.
+struct MadeFit {
+  struct Key {
+    std::vector<SurfaceState> surfaces;
+    int stop_index = 0;
+    double sensor_z_mm = 0.0, sensor_width_mm = 0.0, sensor_height_mm = 0.0, design_wavelength_nm = 0.0;
+    bool absorption = false;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  explicit MadeFit(const Key& /*key*/) {}
+  [[nodiscard]] std::size_t memory_bytes() const { return lens ? 2 * lens->bytes() : 0; }
+  std::shared_ptr<const FittedLens> lens;
+};
+
+Result<Fit> given_fit(const PolynomialRenderOptions& options) {
+  if (options.fit) return options.fit;
+  auto read = read_polynomial_file(options.file);
+  if (!read) return tl::unexpected(read.error());
+  return std::make_shared<const LensPolynomials>(std::move(*read));
+}
+
+Result<std::shared_ptr<const FittedLens>> kept_fit(const PlannedFrame& planned,
+                                                   const PolynomialRenderOptions& options) {
+  KeptFit::Key key{options.fit, options.fit ? std::filesystem::path() : options.file, {}};
+  std::error_code ignored;  // reading tells what is wrong
+  if (!options.fit) key.written = std::filesystem::last_write_time(options.file, ignored);
+  const std::shared_ptr<KeptFit> kept = planned.cache.section<KeptFit>(key);
+  if (!kept->lens) {
+    const auto fit = given_fit(options);
+    if (!fit) return tl::unexpected(fit.error());
+    kept->lens = std::make_shared<const FittedLens>(*fit);
+  }
+  const LensPolynomials& fit = kept->lens->fit();
+  if (fit.fingerprint != fingerprint_of(planned))
+    return invalid_argument(fmt::format(
+        "the fit is one of '{}' at other settings, or of another lens; zoom, focus, coatings and the sensor's "
+        "place need a fit of their own (`contrejour polynomial fit`)",
+        fit.lens));
+  return kept->lens;
+}
+
+bool is_known(const FittedLens* fitted, const Ghost& ghost) {
+  return fitted != nullptr &&
+         std::ranges::find(fitted->fit().ghosts, ghost, &GhostPolynomials::ghost) != fitted->fit().ghosts.end();
+}
+
+// Fits the frame's ghosts that no earlier frame needed.
+Result<std::shared_ptr<const FittedLens>> made_fit(const PlannedFrame& planned, const Context& context) {
+  const LensState& lens = planned.lens;
+  const std::shared_ptr<MadeFit> kept =
+      planned.cache.section<MadeFit>({lens.surfaces, lens.stop_index, lens.sensor_z_mm, lens.sensor_width_mm,
+                                      lens.sensor_height_mm, lens.design_wavelength_nm, lens.absorption});
+  PolynomialOptions missing;
+  std::ranges::copy_if(planned.plan.ghosts, std::back_inserter(missing.ghosts),
+                       [&](const Ghost& ghost) { return !is_known(kept->lens.get(), ghost); });
+  if (missing.ghosts.empty() && kept->lens) return kept->lens;
+  Context quiet = context;
+  quiet.progress = {};
+  auto made = fit_polynomials(lens, missing, quiet);
+  if (!made) return tl::unexpected(made.error());
+  if (kept->lens) std::ranges::copy(kept->lens->fit().ghosts, std::back_inserter(made->ghosts));
+  kept->lens = std::make_shared<const FittedLens>(std::make_shared<const LensPolynomials>(std::move(*made)));
+  return kept->lens;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const FittedLens>> fitted_lens(const PlannedFrame& planned,
+                                                      const PolynomialRenderOptions& options, const Context& context) {
+  if (options.fit || !options.file.empty()) return kept_fit(planned, options);
+  return made_fit(planned, context);
+}
+
+}  // namespace contrejour::inline internal
