@@ -149,6 +149,7 @@ PUBLIC = {
     "expert/parameter_text.h": "settings",
     "expert/parameter_values.h": "settings",
     "expert/settings.h": "settings",
+    "expert/session.h": "settings",
     "expert/preview_exposure.h": "settings",
     "expert/requests.h": "requests",
     "expert/exposure.h": "requests",

@@ -132,6 +132,7 @@ void set_up(CLI::App& app, Action& action) {
   add_lights(app, action);
   add_farm(app, action);
   add_devices(app, action);
+  add_studio(app, action);
   add_lens(app, action);
   add_glass(app, action);
   add_ghosts(app, action);

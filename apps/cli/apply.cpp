@@ -144,7 +144,7 @@ void add_apply(CLI::App& app, Action& action) {
   command->footer(kApplyExamples);
   command->callback([options, sequence, &action] {
     if (options->input.empty()) {
-      if (options->preset.name.empty()) throw missing_argument(options->lens);
+      if (options->preset.name.empty() && options->preset.session.empty()) throw missing_argument(options->lens);
       std::swap(options->lens, options->input);  // the lens comes from the preset
     }
     action = [options, sequence] { return run_apply(*options, *sequence); };

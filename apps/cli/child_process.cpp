@@ -46,6 +46,23 @@ std::string read_to_end(int file) {
   }
 }
 
+// The words as exec(3) takes them.
+struct ArgumentVector {
+  std::vector<std::string> words;
+  std::vector<char*> argv;
+
+  ArgumentVector(const std::string& program, const std::vector<std::string>& arguments) : words{program} {
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+  }
+};
+
+std::string cannot_start(int reason) {
+  return fmt::format("the program cannot be started ({}); is it installed and on the PATH?",
+                     std::generic_category().message(reason));
+}
+
 int exit_code_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
@@ -56,11 +73,7 @@ int exit_code_of(pid_t process) {
 
 Result<ChildOutput> run_child(const std::string& program, const std::vector<std::string>& arguments,
                               ChildErrors errors) {
-  std::vector<std::string> words{program};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  ArgumentVector words(program, arguments);
   Pipe output;
   if (pipe(output.ends.data()) != 0) return failure(ErrorCode::Io, "no pipe to a new process can be created");
   posix_spawn_file_actions_t actions;
@@ -70,20 +83,26 @@ Result<ChildOutput> run_child(const std::string& program, const std::vector<std:
   if (errors == ChildErrors::Hidden)
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t process = 0;
-  const int failed = posix_spawnp(&process, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int failed = posix_spawnp(&process, program.c_str(), &actions, nullptr, words.argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   output.close_writing_end();
-  if (failed != 0)
-    return failure(ErrorCode::Io,
-                   fmt::format("the program cannot be started ({}); is it installed and on the PATH?",
-                               std::generic_category().message(failed)),
-                   {program});
+  if (failed != 0) return failure(ErrorCode::Io, cannot_start(failed), {program});
   ChildOutput result{read_to_end(output.ends[0]), 0};
   result.exit_code = exit_code_of(process);
   return result;
 }
 
+Error become(const std::string& program, const std::vector<std::string>& arguments) {
+  ArgumentVector words(program, arguments);
+  execvp(program.c_str(), words.argv.data());
+  return {ErrorCode::Io, cannot_start(errno), {program}};
+}
+
 #else
+
+Error become(const std::string& program, const std::vector<std::string>&) {
+  return {ErrorCode::Unsupported, "other programs can be run on Linux and macOS only", {program}};
+}
 
 Result<ChildOutput> run_child(const std::string& program, const std::vector<std::string>&, ChildErrors) {
   return failure(ErrorCode::Unsupported, "other programs can be run on Linux and macOS only", {program});

@@ -26,6 +26,10 @@ struct ChildOutput {
 // by then).
 [[nodiscard]] Result<std::string> output_of_fresh_process(const std::vector<std::string>& arguments);
 
+// Becomes another program, which keeps this one's standard streams; returns only where it could not. Errors: as
+// run_child().
+[[nodiscard]] Error become(const std::string& program, const std::vector<std::string>& arguments);
+
 // The file of this program. Errors: Unsupported where the system does not say.
 [[nodiscard]] Result<std::string> this_program();
 

@@ -33,6 +33,7 @@ void add_polynomial(CLI::App& app, Action& action);
 void add_lights(CLI::App& app, Action& action);
 void add_farm(CLI::App& app, Action& action);
 void add_devices(CLI::App& app, Action& action);
+void add_studio(CLI::App& app, Action& action);
 
 void add_lens_list(CLI::App& lens, Action& action);
 void add_lens_info(CLI::App& lens, Action& action);

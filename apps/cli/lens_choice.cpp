@@ -8,12 +8,14 @@
 #include "cli/console.h"
 #include "cli/glass_choice.h"
 #include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/session.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 
 CLI::Option* add_lens_argument(CLI::App& command, std::string& lens) {
-  return command.add_option("LENS", lens, "a bundled lens (`contrejour lens list`) or a lens file")
+  return command
+      .add_option("LENS", lens, "a bundled lens (`contrejour lens list`), a lens file or a session of the studio")
       ->required()
       ->option_text(" ");
 }
@@ -28,7 +30,10 @@ Result<Prescription> prescription_of(const std::string& lens) {
   }
   const auto glasses = own_glasses();
   if (!glasses) return tl::unexpected(glasses.error());
-  return find_lens(lens, &*glasses);
+  if (!is_session(lens)) return find_lens(lens, &*glasses);
+  const auto session = read_session(std::filesystem::path(lens));
+  if (!session) return tl::unexpected(session.error());
+  return lens_of_session(*session, &*glasses);
 }
 
 Result<LensState> open_lens(const std::string& lens, const params::Values& values) {

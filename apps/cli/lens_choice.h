@@ -16,7 +16,7 @@ namespace contrejour::cli {
 // Adds the LENS argument.
 CLI::Option* add_lens_argument(CLI::App& command, std::string& lens);
 
-// Calls find_lens() with the user's own glasses (glass_choice.h).
+// Calls find_lens() with the user's own glasses (glass_choice.h), or takes the lens of a session (session.h).
 [[nodiscard]] Result<Prescription> prescription_of(const std::string& lens);
 
 // Finds and configures the lens; prints its warnings. Errors: those of find_lens and configure_lens.

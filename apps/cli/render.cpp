@@ -121,7 +121,8 @@ void add_render(CLI::App& app, Action& action) {
   add_rendering_parameters(*command, options->values);
   command->footer(kRenderExamples);
   command->callback([options, sequence, &action] {
-    if (options->lens.empty() && options->preset.name.empty()) throw CLI::RequiredError("LENS");
+    if (options->lens.empty() && options->preset.name.empty() && options->preset.session.empty())
+      throw CLI::RequiredError("LENS");
     action = [options, sequence] { return run_render(*options, *sequence); };
   });
 }

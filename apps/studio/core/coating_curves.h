@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a coated surface reflects, for plots, and other coatings for single surfaces of a document as its --coating-at
+// values. Errors: InvalidArgument. Thread-safety: pure functions.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "contrejour/expert/colour.h"
+#include "studio/core/document.h"
+
+namespace contrejour::studio {
+
+inline constexpr std::array<double, 3> kCurveAngles_deg = {0, 20, 40};  // of incidence, in air where there is air
+inline constexpr std::size_t kCurvePoints = 96;
+inline constexpr double kFirstCurve_nm = 380, kLastCurve_nm = 740;
+
+struct ReflectanceCurves {
+  std::array<std::array<double, kCurvePoints>, 3> reflectance{};  // by angle, then wavelength
+  double largest = 0;
+};
+[[nodiscard]] ReflectanceCurves reflectance_curves(const SurfaceState& surface);
+
+// At normal incidence: the mean over the curve, and the colour of the reflection of white light.
+[[nodiscard]] double mean_reflectance(const SurfaceState& surface);
+[[nodiscard]] Rgb reflected_rgb(const SurfaceState& surface);
+
+// The coating that the document's values give this surface (1-based), or else the lens's own, as text.
+[[nodiscard]] std::string coating_of_surface(const Document& document, int surface);
+[[nodiscard]] Result<Document> with_surface_coating(Document document, int surface, const std::string& coating);
+
+// The wavelength that a design is made for; none where the coating has no such number.
+[[nodiscard]] std::optional<double> design_wavelength_nm(const Document& document, int surface);
+// The same design for another wavelength: "v-coat:480" of "v-coat".
+[[nodiscard]] std::string with_design_wavelength(const std::string& coating, double lambda_nm);
+
+}  // namespace contrejour::studio

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/core/figures_job.h"
+
+#include <cmath>
+#include <utility>
+
+#include "contrejour/expert/requests.h"
+
+namespace contrejour::studio {
+namespace {
+
+// Pictures are drawn meanwhile, and come first.
+constexpr int kFiguresThreads = 1;
+constexpr std::chrono::milliseconds kRestBeforeFigures{120};
+
+Result<std::vector<GhostFigures>> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
+  const auto light = light_of(order.values, *order.lens, order.light);
+  if (!light) return tl::unexpected(light.error());
+  const auto request = figures_request(order.values, *order.lens, &*light);
+  if (!request) return tl::unexpected(request.error());
+  return ghost_figures(*order.lens, *request, {.threads = kFiguresThreads, .cancel = &cancel});
+}
+
+}  // namespace
+
+Result<Light> light_of(const params::Values& values, const LensState& lens, std::size_t light) {
+  const auto request = picture_request(values, lens);
+  if (!request) return tl::unexpected(request.error());
+  if (light >= request->lights.size()) return invalid_argument("the picture has no such light");
+  return request->lights[light];
+}
+
+double angle_from_axis_rad(const Light& light) {
+  const LightAngles angles = angles_from_direction(light.direction);
+  const double angle = std::acos(std::fmin(1.0, light.direction.z / length(light.direction)));
+  return angles.elevation_rad < 0 ? -angle : angle;
+}
+
+FiguresJob::Work figures_work() {
+  return [](const FiguresOrder& order, FiguresJob::Control& control) {
+    if (!control.rests_for(kRestBeforeFigures)) return;
+    auto figures = figures_of(order, control.is_outdated());
+    if (control.is_outdated()) return;
+    FiguresAnswer answer{order.revision, order.light, {}, {}};
+    if (figures)
+      answer.figures = std::move(*figures);
+    else
+      answer.error = figures.error().to_string();
+    control.publish(std::move(answer));
+  };
+}
+
+SectionJob::Work section_work() {
+  return [](const SectionOrder& order, SectionJob::Control& control) {
+    SectionRequest request;
+    if (order.ghost) {
+      request.ghosts = {*order.ghost};
+      request.ghost_light_rad = order.light_rad;
+    }
+    control.publish({std::make_shared<const LensSection>(lens_section(*order.lens, request)), order.ghost});
+  };
+}
+
+}  // namespace contrejour::studio

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work on a thread of its own that only ever answers the latest request: a new one replaces one that waits, and asks
+// the one in work to stop. The interface posts requests and takes answers; neither waits for the work.
+// Thread-safety: post(), take() and is_idle() from one thread; `work` runs on the job's own.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "contrejour/context.h"
+
+namespace contrejour::studio {
+
+template <class Request, class Answer>
+class LatestJob {
+ public:
+  // What the work sees of its job.
+  class Control {
+   public:
+    explicit Control(LatestJob& job) : job_(job) {}
+    // Set once a newer request was posted, or the job ends.
+    [[nodiscard]] const std::atomic<bool>& is_outdated() const { return job_.outdated_; }
+    // Set once the job ends: for work that a newer request does not stop.
+    [[nodiscard]] const std::atomic<bool>& is_ending() const { return job_.ending_; }
+    // Waits, and returns early with false if a newer request arrives.
+    [[nodiscard]] bool rests_for(std::chrono::milliseconds time) {
+      std::unique_lock lock(job_.mutex_);
+      return !job_.changed_.wait_for(lock, time, [&] { return job_.outdated_.load(); });
+    }
+    void publish(Answer answer) {
+      {
+        const std::lock_guard lock(job_.mutex_);
+        job_.answer_ = std::move(answer);
+      }
+      if (job_.on_answer_) job_.on_answer_();
+    }
+
+   private:
+    LatestJob& job_;
+  };
+
+  using Work = std::function<void(const Request&, Control&)>;
+
+  LatestJob(Work work, std::function<void()> on_answer)
+      : work_(std::move(work)), on_answer_(std::move(on_answer)), thread_([this] { run(); }) {}
+
+  ~LatestJob() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      outdated_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+  LatestJob(const LatestJob&) = delete;
+  LatestJob& operator=(const LatestJob&) = delete;
+
+  void post(Request request) {
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_ = std::move(request);
+      outdated_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  // The answer published last, once.
+  [[nodiscard]] std::optional<Answer> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(answer_, std::nullopt);
+  }
+
+  // Nothing is asked for, in work, or waiting to be taken.
+  [[nodiscard]] bool is_idle() const {
+    const std::lock_guard lock(mutex_);
+    return !waiting_ && !working_ && !answer_;
+  }
+
+ private:
+  void run() {
+    Control control(*this);
+    while (auto request = next()) {
+      work_(*request, control);
+      {
+        const std::lock_guard lock(mutex_);
+        working_ = false;
+      }
+      if (on_answer_) on_answer_();
+    }
+  }
+
+  std::optional<Request> next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ending_.load() || waiting_.has_value(); });
+    if (ending_) return std::nullopt;
+    working_ = true;
+    outdated_ = false;
+    return std::exchange(waiting_, std::nullopt);
+  }
+
+  Work work_;
+  std::function<void()> on_answer_;  // after each answer and each end of work, on the job's thread
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Request> waiting_;
+  std::optional<Answer> answer_;
+  bool working_ = false;
+  std::atomic<bool> outdated_ = false, ending_ = false;
+  std::thread thread_;  // last: it uses all the others
+};
+
+}  // namespace contrejour::studio

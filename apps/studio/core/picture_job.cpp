@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/core/picture_job.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/renderer_settings.h"
+#include "contrejour/expert/requests.h"
+#include "contrejour/renderer.h"
+
+namespace contrejour::studio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMuchSooner = 0.4;  // a draft that takes so little of its time lets the next one be finer
+constexpr int kSmallestDraft = 64;
+
+// Renders on the job's thread, and keeps what frames have in common.
+class PictureWorker {
+ public:
+  void work(const PictureOrder& order, PictureJob::Control& control) {
+    draft(order, control);
+    if (!control.rests_for(kRestBeforeRefining)) return;
+    refine(order, control);
+  }
+
+ private:
+  void draft(const PictureOrder& order, PictureJob::Control& control) {
+    const DraftLevel& level = draft_levels()[level_];
+    params::Values values = draft_values(order, level);
+    const bool shifts_stars = StarLayers::are_wanted(values) && stars_.have(order.stars);
+    if (shifts_stars) leave_out_stars(values);
+    PictureAnswer answer = rendered(order, values, {.cancel = &control.is_ending()}, [&](Image& image) {
+      if (shifts_stars) add_stars(order, level.divisor, image);
+    });
+    answer.kind = PictureKind::Draft;
+    answer.pixel_area = static_cast<double>(level.divisor * level.divisor);
+    adapt(answer.time_ms);
+    control.publish(std::move(answer));
+  }
+
+  void refine(const PictureOrder& order, PictureJob::Control& control) {
+    const Context context{.cancel = &control.is_outdated()};
+    PictureAnswer answer = rendered(order, order.values, context, {});
+    answer.kind = PictureKind::Refined;
+    if (control.is_outdated()) return;
+    control.publish(std::move(answer));
+    // For the drafts to come; without them they take longer.
+    if (renderer_ && StarLayers::are_wanted(order.values))
+      static_cast<void>(stars_.prepare(order.stars, order.values, *order.lens, *renderer_, context));
+  }
+
+  static void leave_out_stars(params::Values& values) {
+    static_cast<void>(values.set("starburst", "off"));
+    static_cast<void>(values.set("glare", "0"));
+  }
+
+  void add_stars(const PictureOrder& order, int divisor, Image& draft) const {
+    const auto size = params::parse_size(*order.values.text("size"));
+    if (size)
+      stars_.add(order.stars, {static_cast<double>(size->width), static_cast<double>(size->height)}, divisor, draft);
+  }
+
+  // change: of the image, before it is answered.
+  PictureAnswer rendered(const PictureOrder& order, const params::Values& values, const Context& context,
+                         const std::function<void(Image&)>& change) {
+    const auto start = Clock::now();
+    PictureAnswer answer;
+    answer.revision = order.revision;
+    auto flare = flare_of(order, values, context);
+    if (flare) {
+      answer.ghosts = flare->statistics.ghosts_rendered;
+      if (change) change(flare->image);
+      answer.image = std::make_shared<const Image>(std::move(flare->image));
+    } else {
+      answer.error = flare.error().to_string();
+    }
+    answer.time_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return answer;
+  }
+
+  Result<Flare> flare_of(const PictureOrder& order, const params::Values& values, const Context& context) {
+    if (!renderer_) {
+      auto created = Renderer::create();
+      if (!created) return tl::unexpected(created.error());
+      renderer_ = std::move(*created);
+    }
+    if (auto set = configure_renderer(*renderer_, values); !set) return tl::unexpected(set.error());
+    if (lens_ != order.lens)
+      if (auto set = renderer_->set_lens(*order.lens); !set) return tl::unexpected(set.error());
+    lens_ = order.lens;
+    const auto request = picture_request(values, *order.lens);
+    if (!request) return tl::unexpected(request.error());
+    return render_picture(*request, *renderer_, context);
+  }
+
+  // Late drafts raise the level at once; several early ones lower it, so that it does not alternate.
+  void adapt(double time_ms) {
+    if (time_ms > kDraftTime_ms) {
+      level_ = std::min(level_ + 1, draft_levels().size() - 1);
+      early_ = 0;
+    } else if (time_ms > kMuchSooner * kDraftTime_ms || ++early_ < 8) {
+      if (time_ms > kMuchSooner * kDraftTime_ms) early_ = 0;
+    } else {
+      level_ -= level_ > 0 ? 1 : 0;
+      early_ = 0;
+    }
+  }
+
+  std::optional<Renderer> renderer_;
+  std::shared_ptr<const LensState> lens_;
+  StarLayers stars_;
+  std::size_t level_ = 1;
+  int early_ = 0;
+};
+
+void replace(params::Values& values, std::string_view name, std::string text) {
+  static_cast<void>(values.set(name, std::move(text)));  // within the parameter's range
+}
+
+std::string smaller_size(const std::string& text, int divisor) {
+  const auto size = params::parse_size(text);
+  if (!size) return text;
+  return fmt::format("{}x{}", std::max(size->width / divisor, std::min(size->width, kSmallestDraft)),
+                     std::max(size->height / divisor, std::min(size->height, kSmallestDraft)));
+}
+
+std::string selection_of(const std::vector<Ghost>& ghosts, std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(count, ghosts.size()); ++k) names.push_back(ghost_name(ghosts[k]));
+  return fmt::format("list:{}", fmt::join(names, ","));
+}
+
+}  // namespace
+
+const std::vector<DraftLevel>& draft_levels() {
+  static const std::vector<DraftLevel> levels = {{1, "0.01", 0},  {2, "0.02", 0},  {2, "0.03", 60},
+                                                 {3, "0.05", 30}, {4, "0.08", 16}, {4, "0.1", 8}};
+  return levels;
+}
+
+params::Values draft_values(const PictureOrder& order, const DraftLevel& level) {
+  params::Values values = order.values;
+  replace(values, "method", "adaptive");
+  replace(values, "error", level.error);
+  replace(values, "size", smaller_size(*values.text("size"), level.divisor));
+  replace(values, "ringing", "none");
+  replace(values, "wavelengths", "3");
+  replace(values, "reflections", "2");
+  replace(values, "device", "cpu");
+  const bool is_whole = values.text("select") == "all";
+  if (level.ghosts > 0 && is_whole && order.brightest.size() > level.ghosts)
+    replace(values, "select", selection_of(order.brightest, level.ghosts));
+  return values;
+}
+
+PictureJob::Work picture_work() {
+  return [worker = std::make_shared<PictureWorker>()](const PictureOrder& order, PictureJob::Control& control) {
+    worker->work(order, control);
+  };
+}
+
+}  // namespace contrejour::studio

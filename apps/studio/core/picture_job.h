@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of the flare for the viewport: for each request first a draft, and after 150 ms of rest the picture itself,
+// which is that of `contrejour render`, bit for bit. The next request stops the picture, but never a draft: a light
+// that is dragged would else have none. Drafts are coarser (size, error) the longer they take, so that they keep up.
+// Thread-safety: as of LatestJob.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contrejour/expert/ghost_id.h"
+#include "contrejour/expert/parameter_values.h"
+#include "contrejour/image.h"
+#include "contrejour/lens.h"
+#include "studio/core/latest_job.h"
+#include "studio/core/star_layers.h"
+
+namespace contrejour::studio {
+
+inline constexpr std::chrono::milliseconds kRestBeforeRefining{150};
+
+struct PictureOrder {
+  std::uint64_t revision = 0;
+  params::Values values;
+  std::shared_ptr<const LensState> lens;
+  std::vector<StarLight> stars = {};  // of all lights, in their order; empty: drafts render starbursts themselves
+  std::vector<Ghost> brightest;  // of a similar light, brightest first: drafts that are late draw these only
+};
+
+enum class PictureKind { Draft, Refined };
+
+struct PictureAnswer {
+  std::uint64_t revision = 0;
+  PictureKind kind = PictureKind::Draft;
+  std::shared_ptr<const Image> image;  // null where there is an error
+  double pixel_area = 1.0;  // of the whole picture's, in which a pixel's value is that much less
+  double time_ms = 0;
+  int ghosts = 0;
+  std::string error;
+};
+
+// How coarse a draft is. Levels rise until drafts take no longer than kDraftTime_ms.
+struct DraftLevel {
+  int divisor = 1;  // of width and height
+  const char* error = "0.01";
+  std::size_t ghosts = 0;  // the brightest that are drawn; 0: all
+};
+inline constexpr double kDraftTime_ms = 33.0;
+[[nodiscard]] const std::vector<DraftLevel>& draft_levels();
+
+// The values that a draft of this level is rendered with.
+[[nodiscard]] params::Values draft_values(const PictureOrder& request, const DraftLevel& level);
+
+using PictureJob = LatestJob<PictureOrder, PictureAnswer>;
+[[nodiscard]] PictureJob::Work picture_work();
+
+}  // namespace contrejour::studio

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dialogs: files to open and to save, export with its command line, recovery, unsaved changes.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include "studio/core/command_line.h"
+#include "studio/ui/panels.h"
+#include "studio/ui/theme.h"
+
+namespace contrejour::studio {
+namespace {
+
+constexpr std::size_t kMostEntries = 400;
+
+struct FolderEntry {
+  std::string name;
+  bool is_folder = false;
+};
+
+// Folders first, then files, by name; those that cannot be read are left out.
+std::vector<FolderEntry> entries_of(const std::filesystem::path& folder) {
+  std::vector<FolderEntry> entries;
+  std::error_code code;
+  for (auto at = std::filesystem::directory_iterator(folder, code);
+       !code && at != std::filesystem::directory_iterator(); at.increment(code)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(".") && entries.size() < kMostEntries) entries.push_back({name, at->is_directory(code)});
+  }
+  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name;
+  });
+  return entries;
+}
+
+std::filesystem::path folder_of(const std::string& path) {
+  std::error_code code;
+  if (!path.empty() && std::filesystem::is_directory(path, code)) return path;
+  const auto parent = std::filesystem::path(path).parent_path();
+  return parent.empty() ? std::filesystem::current_path(code) : parent;
+}
+
+void draw_folder(Ui& ui) {
+  const auto folder = folder_of(ui.state.path);
+  ImGui::TextDisabled("%s", folder.string().c_str());
+  ImGui::BeginChild("##folder", {scaled(560), scaled(260)}, true);
+  if (ImGui::Selectable("..")) ui.state.path = folder.parent_path().string() + "/";
+  for (const FolderEntry& entry : entries_of(folder))
+    if (ImGui::Selectable((entry.name + (entry.is_folder ? "/" : "")).c_str(), false,
+                          ImGuiSelectableFlags_DontClosePopups))
+      ui.state.path = (folder / entry.name).string() + (entry.is_folder ? "/" : "");
+  ImGui::EndChild();
+}
+
+// The path, then a folder's files, then the button that does it; Enter does it, too.
+void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act) {
+  ImGui::SetNextItemWidth(scaled(560));
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputText("##path", &ui.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.registry.record("dialog/path", ui.state.path);
+  draw_folder(ui);
+  if (!ui.studio.problem().empty()) {
+    ImGui::PushTextWrapPos(scaled(560));
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kBad), "%s", ui.studio.problem().c_str());
+    ImGui::PopTextWrapPos();
+  }
+  const bool acts = button(ui, "dialog/accept", action, nullptr, {scaled(110), 0}) || entered;
+  ImGui::SameLine();
+  if (button(ui, "dialog/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
+  if (acts && !ui.state.path.empty() && act()) ImGui::CloseCurrentPopup();
+}
+
+bool open_file(Ui& ui) {
+  return is_session(ui.state.path) ? ui.studio.open_session(ui.state.path) : ui.studio.open_lens(ui.state.path);
+}
+
+bool save_file(Ui& ui) {
+  if (!is_session(ui.state.path)) ui.state.path += ".session.json";
+  const bool saved = ui.studio.save_session(ui.state.path);
+  return saved;
+}
+
+void draw_command(Ui& ui, const char* what, const std::string& id, const std::string& command) {
+  if (command.empty()) return;
+  ImGui::TextDisabled("%s", what);
+  std::string shown = command;
+  ImGui::SetNextItemWidth(scaled(484));
+  ImGui::InputText(("##" + id).c_str(), &shown, ImGuiInputTextFlags_ReadOnly);
+  ui.registry.record("export/" + id, command);
+  ImGui::SameLine();
+  if (button(ui, "export/" + id + "/copy", "Copy", nullptr, {scaled(68), 0})) ImGui::SetClipboardText(command.c_str());
+}
+
+void draw_export(Ui& ui) {
+  const std::string& file = ui.studio.file();
+  draw_command(ui, "The command line that makes the same picture:", "command",
+               command_of_values(ui.studio.document(), ui.state.path));
+  draw_command(ui, "Or from the saved session:", "session-command",
+               file.empty() || !ui.studio.is_saved() ? "" : command_of_session(file, ui.state.path));
+  if (file.empty() || !ui.studio.is_saved())
+    ImGui::TextDisabled("Save the session to have a command line that needs no other file.");
+  ImGui::Spacing();
+  draw_file_dialog(ui, "Export", [&] { return ui.studio.export_picture(ui.state.path); });
+}
+
+void draw_recovery(Ui& ui) {
+  ImGui::TextUnformatted("The studio ended before this work was saved:");
+  for (std::size_t k = 0; k < ui.state.lost.size(); ++k) {
+    const LostWork& work = ui.state.lost[k];
+    ImGui::Spacing();
+    ImGui::PushID(static_cast<int>(k));
+    ImGui::Text("%s, %s, %lld min ago", work.lens.c_str(), work.of_file.empty() ? "never saved" : work.of_file.c_str(),
+                static_cast<long long>(work.age.count() / 60));
+    const bool recovers = button(ui, fmt::format("recover/{}", k + 1), "Recover");
+    ImGui::SameLine();
+    const bool discards = button(ui, fmt::format("recover/{}/discard", k + 1), "Discard");
+    ImGui::PopID();
+    if (recovers && !ui.studio.recover(work)) continue;
+    if (discards) Autosave::remove(work);
+    if (recovers || discards) ui.state.lost.erase(ui.state.lost.begin() + static_cast<std::ptrdiff_t>(k));
+    if (recovers || ui.state.lost.empty()) ImGui::CloseCurrentPopup();
+    if (recovers || discards) break;
+  }
+  ImGui::Spacing();
+  if (button(ui, "recover/later", "Not now", "The copies stay, and are offered again")) ImGui::CloseCurrentPopup();
+}
+
+void draw_quit(Ui& ui) {
+  ImGui::TextUnformatted("This session has changes that are not saved.");
+  ImGui::Spacing();
+  if (button(ui, "quit/save", "Save", nullptr, {scaled(110), 0})) {
+    ImGui::CloseCurrentPopup();
+    open_dialog(ui, Dialog::SaveAs, ui.studio.file());
+  }
+  ImGui::SameLine();
+  if (button(ui, "quit/discard", "Discard", nullptr, {scaled(110), 0})) {
+    ui.studio.forget_autosave();
+    ui.state.wants_to_quit = true;
+  }
+  ImGui::SameLine();
+  if (button(ui, "quit/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
+}
+
+void draw_content(Ui& ui) {
+  switch (ui.state.dialog) {
+    case Dialog::OpenLens: return draw_file_dialog(ui, "Open", [&] { return open_file(ui); });
+    case Dialog::OpenPlate: return draw_file_dialog(ui, "Open", [&] { return ui.studio.open_plate(ui.state.path); });
+    case Dialog::SaveAs: return draw_file_dialog(ui, "Save", [&] { return save_file(ui); });
+    case Dialog::Export: return draw_export(ui);
+    case Dialog::Recover: return draw_recovery(ui);
+    case Dialog::Quit: return draw_quit(ui);
+    case Dialog::None: return;
+  }
+}
+
+const char* title_of(Dialog dialog) {
+  static constexpr const char* titles[] = {"",
+                                           "Open a lens or a session",
+                                           "Open a plate",
+                                           "Save the session",
+                                           "Export the picture",
+                                           "Recover unsaved work",
+                                           "Unsaved changes"};
+  return titles[static_cast<std::size_t>(dialog)];
+}
+
+}  // namespace
+
+void draw_dialogs(Ui& ui) {
+  if (ui.state.dialog == Dialog::None) return;
+  const std::string title = fmt::format("{}##dialog", title_of(ui.state.dialog));
+  if (ui.state.dialog_opens) ImGui::OpenPopup(title.c_str());
+  ui.state.dialog_opens = false;
+  const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5F, 0.5F});
+  const Dialog shown = ui.state.dialog;
+  if (!ImGui::BeginPopupModal(title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
+    ui.state.dialog = Dialog::None;
+    return;
+  }
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+  draw_content(ui);
+  ImGui::EndPopup();
+  if (ui.state.dialog == shown && !ImGui::IsPopupOpen(title.c_str())) ui.state.dialog = Dialog::None;
+}
+
+}  // namespace contrejour::studio

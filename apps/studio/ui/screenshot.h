@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window shows, as a PNG. Needs a current OpenGL context, before its buffers are swapped.
+#pragma once
+
+#include <string>
+
+#include "contrejour/result.h"
+
+namespace contrejour::studio {
+
+[[nodiscard]] Result<void> write_screenshot(const std::string& file, int width, int height);
+
+}  // namespace contrejour::studio

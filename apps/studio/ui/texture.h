@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture on the graphics card, for Dear ImGui to draw. Needs a current OpenGL context.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <imgui.h>
+
+namespace contrejour::studio {
+
+class Texture {
+ public:
+  Texture() = default;
+  ~Texture();
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+
+  void set(int width, int height, std::span<const std::uint32_t> rgba);
+  // Between pixels that are magnified: their mean, or none.
+  void set_smooth(bool smooth);
+  // As a callback of a draw list: its clip rectangle becomes the canvas, by far sooner than a rectangle that is drawn
+  // would, and what follows is not blended with what is there.
+  static void clear_canvas(const ImDrawList* list, const ImDrawCmd* command);
+  [[nodiscard]] ImTextureID id() const { return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name_)); }
+  [[nodiscard]] bool is_empty() const { return name_ == 0; }
+
+ private:
+  unsigned int name_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace contrejour::studio

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "studio/ui/theme.h"
+#include "studio/ui/viewport_parts.h"
+
+namespace contrejour::studio {
+namespace {
+
+constexpr int kOutlinePoints = 72;
+
+const GhostFigures* selected_figures(const Studio& studio) {
+  for (const GhostFigures& f : studio.figures())
+    if (studio.selection.ghost == f.ghost) return &f;
+  return nullptr;
+}
+
+std::string name_for_people(const Ghost& ghost) {
+  std::string name = ghost_name(ghost);
+  for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 3))
+    name.replace(at, 1, "\u2013");
+  return name;
+}
+
+}  // namespace
+
+void draw_frame_guides(const ViewportMap& map) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 middle = map.screen_of_uv({0.5, 0.5});
+  const float arm = scaled(6);
+  constexpr ImU32 colour = IM_COL32(255, 255, 255, 70);
+  list.AddLine({middle.x - arm, middle.y}, {middle.x + arm, middle.y}, colour);
+  list.AddLine({middle.x, middle.y - arm}, {middle.x, middle.y + arm}, colour);
+}
+
+void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
+  const GhostFigures* ghost = selected_figures(ui.studio);
+  if (ghost == nullptr || !ui.studio.view.shows_ghosts) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = map.screen_of_pixel(ghost->centroid_px);
+  const float rx = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.x));
+  const float ry = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.y));
+  std::array<ImVec2, kOutlinePoints> points;
+  for (int k = 0; k < kOutlinePoints; ++k) {
+    const float t = 6.2831853F * static_cast<float>(k) / kOutlinePoints;
+    points[static_cast<std::size_t>(k)] = {at.x + rx * std::cos(t), at.y + ry * std::sin(t)};
+  }
+  for (std::size_t k = 0; k + 1 < points.size(); k += 2)
+    list.AddLine(points[k], points[k + 1], colours::kSelected, scaled(1.5F));
+  const std::string name = fmt::format("{}  {:.3g} %", name_for_people(ghost->ghost), 100 * ghost->relative_flux);
+  const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+  const ImVec2 text = {std::fmin(at.x + scaled(8), map.canvas_max.x - size.x - scaled(8)),
+                       at.y - ry - size.y - scaled(4)};
+  const ImVec2 label = {std::fmax(text.x, map.canvas_min.x + scaled(6)),
+                        std::fmax(text.y, map.canvas_min.y + scaled(4))};
+  list.AddRectFilled({label.x - scaled(5), label.y - scaled(1)},
+                     {label.x + size.x + scaled(5), label.y + size.y + scaled(2)}, colours::kShade, scaled(3));
+  list.AddText(label, colours::kSelected, name.c_str());
+}
+
+void draw_picture_badge(Ui& ui, bool is_short) {
+  const DisplayAnswer& shown = ui.studio.shown();
+  const bool is_draft = shown.picture.kind == PictureKind::Draft;
+  const bool is_current = shown.picture.revision == ui.studio.revision();
+  const ImU32 colour = is_draft || !is_current ? colours::kAccent : colours::kGood;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float r = scaled(4), height = ImGui::GetFrameHeight();
+  ImGui::GetWindowDrawList()->AddCircleFilled({at.x + scaled(8), at.y + 0.5F * height}, r, colour);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + scaled(20));
+  ImGui::AlignTextToFramePadding();
+  const std::string kind = is_draft ? "Draft" : "Refined";
+  const std::string text =
+      shown.width == 0 ? "rendering\u2026"
+      : is_short       ? kind
+                 : fmt::format("{}  {} \u00d7 {}   {:.0f} ms", kind, shown.width, shown.height, shown.picture.time_ms);
+  ImGui::TextUnformatted(text.c_str());
+  ui.registry.record("viewport/badge", is_draft ? "draft" : "refined");
+  tip("Amber: a draft, coarser so that it follows the light. Green: the picture of the command line, bit for bit.");
+}
+
+}  // namespace contrejour::studio

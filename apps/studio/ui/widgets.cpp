@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include "studio/ui/theme.h"
+
+namespace contrejour::studio {
+
+void WidgetRegistry::record(std::string id, std::string value) {
+  record(std::move(id), ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), std::move(value));
+}
+
+void WidgetRegistry::record(std::string id, ImVec2 min, ImVec2 max, std::string value) {
+  const ImRect panel = ImGui::GetCurrentWindow()->OuterRectClipped;
+  const bool clipped =
+      min.x < panel.Min.x - 1 || max.x > panel.Max.x + 1 || min.y < panel.Min.y - 1 || max.y > panel.Max.y + 1;
+  const bool hidden = !panel.Contains(ImVec2(0.5F * (min.x + max.x), 0.5F * (min.y + max.y)));
+  widgets_.push_back({std::move(id), min, max, std::move(value), clipped, hidden});
+}
+
+const WidgetRecord* WidgetRegistry::find(const std::string& id) const {
+  const auto found = std::find_if(widgets_.begin(), widgets_.end(), [&](const WidgetRecord& w) { return w.id == id; });
+  return found != widgets_.end() ? &*found : nullptr;
+}
+
+void tip(const char* text) {
+  if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(scaled(420));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool button(Ui& ui, const std::string& id, const char* label, const char* text, ImVec2 size) {
+  ImGui::PushID(id.c_str());
+  const bool pressed = ImGui::Button(label, size);
+  ImGui::PopID();
+  ui.registry.record(id);
+  tip(text);
+  return pressed;
+}
+
+bool toggle(Ui& ui, const std::string& id, const char* label, bool on, ImU32 lit, const char* text) {
+  ImGui::PushID(id.c_str());
+  if (on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, lit);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, lit);
+    ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(20, 20, 22, 255));
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
+  const bool pressed = ImGui::Button(label, {scaled(20), ImGui::GetTextLineHeight() + scaled(2)});
+  ImGui::PopStyleVar();
+  if (on) ImGui::PopStyleColor(3);
+  ImGui::PopID();
+  ui.registry.record(id, on ? "on" : "off");
+  tip(text);
+  return pressed;
+}
+
+void align_right(std::initializer_list<const char*> labels, float others) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = others;
+  for (const char* label : labels)
+    width += ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetContentRegionMax().x - width + style.ItemSpacing.x));
+}
+
+void colour_patch(ImU32 colour, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + scaled(2)}, {at.x + width, at.y + height - scaled(1)}, colour,
+                                            scaled(3));
+  ImGui::Dummy({width, height});
+}
+
+void fitting_text(const std::string& text, float width, ImU32 colour) {
+  std::string shown = text;
+  while (shown.size() > 1 && ImGui::CalcTextSize(shown.c_str()).x > width) {
+    shown.resize(shown.size() - 1);
+    while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xC0U) == 0x80U) shown.pop_back();
+    if (ImGui::CalcTextSize((shown + "\u2026").c_str()).x <= width) {
+      shown += "\u2026";
+      break;
+    }
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(shown.c_str());
+  ImGui::PopStyleColor();
+  if (shown != text) tip(text.c_str());
+}
+
+bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint) {
+  TextEdit& edit = ui.state.edit;
+  const bool is_edited = edit.id == id, is_refused = edit.refused_id == id;
+  std::string& shown = is_edited ? edit.text : is_refused ? edit.refused_text : text;
+  if (is_refused) ImGui::PushStyleColor(ImGuiCol_FrameBg, colours::kBadBack);
+  ImGui::PushID(id.c_str());
+  ImGui::SetNextItemWidth(width);
+  const bool entered = ImGui::InputTextWithHint(
+      "##field", hint, &shown, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool started = ImGui::IsItemActivated(), left = ImGui::IsItemDeactivated();
+  const bool was_changed = ImGui::IsItemDeactivatedAfterEdit();
+  ImGui::PopID();
+  if (is_refused) ImGui::PopStyleColor();
+  ui.registry.record(id, shown);
+  if (is_refused) tip(edit.reason.c_str());
+  if (started && !is_edited) {
+    edit.id = id;
+    edit.text = shown;
+  }
+  if (!left && !entered) return false;
+  const bool accepts = entered || was_changed;
+  if (accepts) text = edit.id == id ? edit.text : shown;
+  if (edit.id == id) edit.id.clear();
+  if (is_refused) edit.refused_id.clear();
+  return accepts;
+}
+
+void refuse_text(Ui& ui, const std::string& id, const std::string& text, const std::string& reason) {
+  ui.state.edit.refused_id = id;
+  ui.state.edit.refused_text = text;
+  ui.state.edit.reason = reason;
+}
+
+void bring_into_sight(const Ui& ui, int surface, int& in_sight) {
+  if (ui.studio.selection.surface != surface || in_sight == surface) return;
+  ImGui::SetScrollHereY(0.5F);
+  in_sight = surface;
+}
+
+void open_dialog(Ui& ui, Dialog dialog, std::string path) {
+  ui.state.dialog = dialog;
+  ui.state.dialog_opens = true;
+  ui.state.path = std::move(path);
+}
+
+ImU32 display_colour(const Rgb& rgb, double brightest) {
+  const auto code = [&](double v) {
+    return static_cast<int>(std::lround(255 * std::pow(std::clamp(v / brightest, 0.0, 1.0), 1 / 2.2)));
+  };
+  return IM_COL32(code(rgb[0]), code(rgb[1]), code(rgb[2]), 255);
+}
+
+}  // namespace contrejour::studio

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What panels are made of: widgets that also record where they are, under a name that does not change, for the test
+// port and for the dump of the state. Thread-safety: the thread of the interface.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+
+#include "studio/core/studio.h"
+
+namespace contrejour::studio {
+
+struct WidgetRecord {
+  std::string id;  // "ghosts/3-8/solo"
+  ImVec2 min, max;
+  std::string value;
+  bool is_clipped = false;  // a part of it lies outside its panel
+  bool is_hidden = false;   // its middle does
+};
+
+class WidgetRegistry {
+ public:
+  void begin_frame() { widgets_.clear(); }
+  // The item that Dear ImGui has drawn last, or a rectangle.
+  void record(std::string id, std::string value = {});
+  void record(std::string id, ImVec2 min, ImVec2 max, std::string value = {});
+  [[nodiscard]] const WidgetRecord* find(const std::string& id) const;
+  [[nodiscard]] const std::vector<WidgetRecord>& all() const { return widgets_; }
+
+ private:
+  std::vector<WidgetRecord> widgets_;
+};
+
+enum class SideTab { Ghosts, Lights, Parameters, History };
+enum class BottomTab { Section, Prescription, Coatings };
+enum class Dialog { None, OpenLens, OpenPlate, SaveAs, Export, Recover, Quit };
+
+// A cell or a field that is typed into, until it is accepted.
+struct TextEdit {
+  std::string id;  // of the widget; empty: none
+  std::string text;
+  std::string refused_id, refused_text, reason;  // the last text that was not accepted
+};
+
+// The drag of a light that goes on; it ends with the button.
+struct LightDrag {
+  bool on = false;
+  std::size_t light = 0;
+  ImVec2 grip;  // from the mouse to the light
+};
+
+// The state of the interface that is neither document nor view.
+struct InterfaceState {
+  SideTab side = SideTab::Ghosts;
+  BottomTab bottom = BottomTab::Section;
+  bool side_was_chosen = false, bottom_was_chosen = false;  // by a key: the tab bar follows
+  bool shows_panels = true, shows_help = false;
+  Dialog dialog = Dialog::None;
+  bool dialog_opens = false;
+  std::string path, ghost_filter, parameter_filter;
+  bool sorts_by_peak = false;
+  float side_width = 450, bottom_height = 272;  // at scale 1
+  int coating_in_sight = 0, row_in_sight = 0;  // the surfaces that lists were scrolled to last
+  TextEdit edit;
+  LightDrag drag;
+  bool viewport_has_keys = true;  // arrows and Tab are the viewport's
+  ImVec2 probe{-1, -1};  // the picture's pixel under the mouse; negative: none
+  bool wants_to_quit = false;
+  std::vector<LostWork> lost;
+};
+
+// What every panel is given.
+struct Ui {
+  Studio& studio;
+  InterfaceState& state;
+  WidgetRegistry& registry;
+};
+
+bool button(Ui& ui, const std::string& id, const char* label, const char* tip = nullptr, ImVec2 size = {0, 0});
+// A small square that is lit while on.
+bool toggle(Ui& ui, const std::string& id, const char* label, bool on, ImU32 lit, const char* tip);
+void tip(const char* text);
+// Goes on in the same line so far to the right that buttons with these labels, and other items of this width, just fit.
+void align_right(std::initializer_list<const char*> labels, float others = 0);
+void colour_patch(ImU32 colour, float width);
+// A text of which the last part is left out where it does not fit.
+void fitting_text(const std::string& text, float width, ImU32 colour);
+// A text field that keeps what is typed until Enter or a click elsewhere; true when it is to be accepted, `text` then
+// has it. Refused text stays, in red, with the reason as its tip.
+bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint = "");
+void refuse_text(Ui& ui, const std::string& id, const std::string& text, const std::string& reason);
+
+// Scrolls the list to the item drawn last if its surface is selected, once.
+void bring_into_sight(const Ui& ui, int surface, int& in_sight);
+
+void open_dialog(Ui& ui, Dialog dialog, std::string path = {});
+
+[[nodiscard]] ImU32 display_colour(const Rgb& rgb, double brightest);
+
+}  // namespace contrejour::studio

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window: GLFW, an OpenGL 3.3 context for the interface alone, and Dear ImGui between its frames.
+// Errors: Unsupported without a display or without OpenGL 3.3. Thread-safety: the main thread; wake() from any.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "contrejour/result.h"
+#include "studio/ui/input.h"
+
+struct GLFWwindow;
+
+namespace contrejour::studio {
+
+struct WindowSettings {
+  int width = 1600, height = 900;
+  float scale = 1.0F;  // of fonts and distances, 0.75 to 3
+  bool waits_for_display = true;  // off: frames as fast as they come, for measurements
+  bool high_contrast = false;
+};
+
+class Window {
+ public:
+  [[nodiscard]] static Result<std::unique_ptr<Window>> open(const WindowSettings& settings);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  // Waits until something happens, for so long at most; input is then in the queue.
+  void wait(double seconds);
+  void begin_frame();
+  // before_swap: once the frame is drawn, before it is on the screen.
+  void end_frame(const std::function<void()>& before_swap = {});
+  static void wake();
+
+  [[nodiscard]] bool wants_to_close() const;
+  [[nodiscard]] bool wants_attention() const { return wants_to_close() || !dropped_.empty(); }
+  void refuse_to_close();
+  void set_title(const std::string& title);
+  [[nodiscard]] InputQueue& input() { return input_; }
+  [[nodiscard]] std::string dropped_file();  // one that the user has dropped on the window; empty: none
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+ private:
+  explicit Window(GLFWwindow* window);
+  void connect();
+
+  GLFWwindow* window_;
+  InputQueue input_;
+  std::string dropped_, title_;
+  double last_frame_s_ = 0;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace contrejour::studio

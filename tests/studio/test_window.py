@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The studio's window with real input: drags, clicks, typing and keys; read back from its state and its pixels."""
+
+from studio_program import StudioTest, run_tests
+
+
+def mean_level(picture, rect):
+    _, _, rows = picture
+    x0, y0, x1, y1 = (int(v) for v in rect)
+    levels = [sum(rows[y][3 * x0:3 * x1]) / (3 * (x1 - x0)) for y in range(y0, y1)]
+    return sum(levels) / len(levels)
+
+
+class Viewport(StudioTest):
+    def test_drag_of_a_light_is_one_step_with_draft_and_picture(self):
+        lines = [["wait"], ["state", "before.json"], ["drag", "viewport/light/1", 120, 60, 12], ["state", "dragged.json"],
+                 ["wait"], ["state", "after.json"], ["key", "ctrl+z"], ["wait"], ["state", "undone.json"]]
+        self.run_studio(lines)
+        before, dragged, after, undone = (self.state(f"{n}.json") for n in ("before", "dragged", "after", "undone"))
+        picture = self.widget(before, "viewport/picture")["rect"]
+        width, height = picture[2] - picture[0], picture[3] - picture[1]
+        moved = [a - b for a, b in zip(after["lights"][0]["at"], before["lights"][0]["at"])]
+        self.assertAlmostEqual(moved[0] * width, 120, delta=1)
+        self.assertAlmostEqual(moved[1] * height, 60, delta=1)
+        self.assertEqual(after["history"]["steps"][-1], "move light 1")
+        self.assertEqual(len(after["history"]["steps"]), len(before["history"]["steps"]) + 1)
+        self.assertEqual(after["shown"]["kind"], "refined")
+        self.assertEqual(after["shown"]["revision"], after["revision"])
+        self.assertEqual(after["lights"], dragged["lights"])
+        self.assertEqual(undone["lights"], before["lights"])
+
+    def test_a_light_outside_the_frame_has_a_handle_and_ghosts(self):
+        state = self.state_after([["drag", "viewport/light/1", -600, -20, 8]])
+        self.assertLess(state["lights"][0]["at"][0], -0.1)
+        handle, viewport = self.widget(state, "viewport/light/1")["rect"], self.widget(state, "viewport")["rect"]
+        self.assertGreaterEqual(handle[0], viewport[0])
+        self.assertEqual(state["shown"]["kind"], "refined")
+        self.assertEqual(state["problem"], "")
+
+    def test_lights_are_added_nudged_and_removed(self):
+        lines = [["double-click", "viewport/picture", 0.7, 0.6], ["wait"], ["state", "added.json"], ["key", "right"], ["key", "shift+down"],
+                 ["state", "nudged.json"], ["key", "delete"]]
+        state = self.state_after(lines)
+        added, nudged = self.state("added.json"), self.state("nudged.json")
+        self.assertEqual(len(added["lights"]), 2)
+        self.assertAlmostEqual(added["lights"][1]["at"][0], 0.7, delta=0.01)
+        self.assertEqual(added["selection"]["light"], 1)
+        self.assertAlmostEqual((nudged["lights"][1]["at"][0] - added["lights"][1]["at"][0]) * 320, 1, delta=0.01)
+        self.assertAlmostEqual((nudged["lights"][1]["at"][1] - added["lights"][1]["at"][1]) * 180, 10, delta=0.01)
+        self.assertEqual(len(state["lights"]), 1)
+
+    def test_zoom_keeps_the_point_under_the_mouse_and_fit_comes_back(self):
+        lines = [["wait"], ["state", "a.json"], ["wheel", "viewport/picture", 3, 0.25, 0.5], ["state", "b.json"], ["key", "z"], ["frames", 2]]
+        state = self.state_after(lines)
+        rect = [self.widget(self.state(n), "viewport/picture")["rect"] for n in ("a.json", "b.json")]
+        at = [r[0] + 0.25 * (r[2] - r[0]) for r in rect]
+        self.assertGreater(rect[1][2] - rect[1][0], 1.4 * (rect[0][2] - rect[0][0]))
+        self.assertAlmostEqual(at[0], at[1], delta=1.5)
+        self.assertEqual(state["zoom"], 1)
+
+    def test_exposure_changes_the_pixels_not_the_picture(self):
+        lines = [["wait"], ["screenshot", "a.png"], ["state", "a.json"], ["key", "="], ["key", "="], ["key", "="], ["key", "="], ["wait"],
+                 ["screenshot", "b.png"]]
+        state = self.state_after(lines, window="640x480")
+        rect = self.widget(state, "viewport/picture")["rect"]
+        self.assertGreater(mean_level(self.picture("b.png"), rect), mean_level(self.picture("a.png"), rect) + 3)
+        self.assertAlmostEqual(state["shown"]["stops"] - self.state("a.json")["shown"]["stops"], 2, delta=0.02)
+
+
+class Panels(StudioTest):
+    def test_a_ghost_is_selected_in_its_list_and_in_the_picture(self):
+        first = self.state_after([])
+        brightest = first["ghosts"][0]
+        u, v = brightest["centre"][0] / 320, brightest["centre"][1] / 180
+        lines = [["click", f"ghosts/{brightest['ghost']}"], ["wait"], ["state", "list.json"], ["key", "s"], ["wait"], ["state", "solo.json"],
+                 ["key", "a"], ["key", "m"], ["wait"], ["state", "muted.json"], ["key", "]"]]
+        if 0.02 < u < 0.98 and 0.02 < v < 0.98:
+            lines += [["click", "viewport/picture", u, v]]
+        state = self.state_after(lines)
+        chosen = self.state("list.json")
+        self.assertEqual(chosen["selection"]["ghost"], brightest["ghost"])
+        j, i = reversed([int(part) for part in brightest["ghost"].split("-")])
+        self.assertIn(f"surface {j}, then at {i}", self.widget(chosen, "section/legend")["value"])
+        self.assertEqual(self.state("solo.json")["values"]["select"], [f"list:{brightest['ghost']}"])
+        self.assertEqual(self.state("solo.json")["shown"]["ghosts"], 1)
+        self.assertTrue(self.state("muted.json")["values"]["ghost"][0].startswith(f"{brightest['ghost']}:gain=0,"))
+        self.assertNotEqual(state["selection"]["ghost"], "")
+
+    def test_a_surface_clicked_in_the_section_is_the_row_of_the_prescription(self):
+        state = self.state_after([["click", "section/surface/3"], ["key", "g"], ["key", "f3"], ["frames", 3]])
+        self.assertEqual(state["values"]["select"], ["surface:3"])
+        self.assertEqual(state["selection"]["surface"], 3)
+        self.assertEqual(self.widget(state, "prescription/3")["value"], "selected")
+
+    def test_a_radius_is_typed_refused_and_undone(self):
+        cell = "prescription/1/radius"
+        lines = [["key", "f3"], ["frames", 3], ["click", cell], ["type", "31.5"], ["key", "enter"], ["wait"], ["state", "typed.json"],
+                 ["click", cell], ["type", "wide"], ["key", "enter"], ["frames", 2], ["state", "refused.json"], ["key", "ctrl+z"]]
+        state = self.state_after(lines)
+        typed, refused = self.state("typed.json"), self.state("refused.json")
+        self.assertAlmostEqual(typed["radii"][0], 31.5)
+        self.assertTrue(typed["edited"])
+        self.assertEqual(typed["history"]["steps"][-1], "radius of surface 1")
+        self.assertEqual(self.widget(refused, cell)["value"], "wide")
+        self.assertIn("wide", refused["problem"])
+        self.assertAlmostEqual(refused["radii"][0], 31.5)
+        self.assertFalse(state["edited"])
+
+    def test_a_coating_is_typed_for_the_selected_surface(self):
+        lines = [["key", "f4"], ["frames", 3], ["click", "coatings/3"], ["click", "coatings/text"], ["type", "v-coat:480"], ["key", "enter"]]
+        state = self.state_after(lines)
+        self.assertEqual(state["values"]["coating-at"], ["3:v-coat:480"])
+        self.assertEqual(state["history"]["steps"][-1], "coat surface 3")
+
+    def test_parameters_are_the_tables_and_come_back_to_their_defaults(self):
+        lines = [["key", "f7"], ["frames", 3], ["click", "parameters/filter"], ["type", "starburst"], ["frames", 2],
+                 ["click", "parameters/starburst", 0.02, 0.5], ["wait"], ["state", "set.json"], ["click", "parameters/starburst/reset"]]
+        state = self.state_after(lines)
+        self.assertEqual(self.state("set.json")["values"]["starburst"], ["on"])
+        self.assertNotIn("starburst", state["values"])
+
+    def test_help_lists_keys_and_tab_hides_panels(self):
+        lines = [["key", "f1"], ["frames", 2], ["state", "help.json"], ["key", "escape"], ["key", "tab"]]
+        state = self.state_after(lines)
+        self.assertTrue(self.state("help.json")["help"])
+        self.assertFalse(state["help"])
+        self.assertFalse(state["panels"])
+
+    def test_nothing_is_clipped_at_double_size_either(self):
+        bars = ("toolbar", "tab", "viewport", "dialog", "prescription/insert", "prescription/scale", "coatings/label", "lights/add", "ghosts/all")
+        for scale, window in (("1", "1280x720"), ("2", "1600x900")):
+            lines = [["wait"]]
+            for key in ("f2", "f3", "f4", "f5", "f6", "f7"):
+                lines += [["key", key], ["frames", 3], ["state", f"{key}.json"]]
+            self.run_studio(lines, "--scale", scale, window=window)
+            for key in ("f2", "f3", "f4", "f5", "f6", "f7"):
+                with self.subTest(scale=scale, panel=key):
+                    fixed = [w["id"] for w in self.state(f"{key}.json")["widgets"] if w["clipped"] and w["id"].startswith(bars)]
+                    self.assertEqual(fixed, [])
+
+
+class RandomInput(StudioTest):
+    def test_random_input_neither_ends_the_program_nor_leaves_it_busy(self):
+        state = self.state_after([["random", 3, 80], ["key", "escape"], ["key", "escape"]])
+        self.assertTrue(state["idle"])
+
+
+if __name__ == "__main__":
+    run_tests()
