@@ -229,6 +229,12 @@ void paint_layers(FramePainter& painter, std::size_t layer_count, std::vector<It
 
 Result<DrawnFlare> render_adaptive(const PlannedFrame& planned, const AdaptiveOptions& options,
                                    const Context& context) {
+  if (const auto good = check_error_bound(options.error); !good) return tl::unexpected(good.error());
+  KeptDevice& kept = *planned.cache.section<KeptDevice>({});
+  if (kept.may_draw(device_lacks(planned))) {
+    auto drawn = draw_on_device(kept, planned, options, context);
+    if (!kept.falls_back(drawn)) return drawn;
+  }
   return draw_adaptive(planned, options.error, nullptr, context);
 }
 
@@ -239,11 +245,6 @@ Result<DrawnFlare> draw_adaptive(const PlannedFrame& planned, double error, cons
   const Frame& frame = settings.frame;
   Stopwatch whole;
   Stopwatch watch;
-  KeptDevice& kept = *cache.section<KeptDevice>({});
-  if (kept.may_draw(device_lacks(planned))) {
-    auto drawn = draw_on_device(kept, planned, options, context);
-    if (!kept.falls_back(drawn)) return drawn;
-  }
 
   DrawnFlare flare;
   const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris), fitted};
