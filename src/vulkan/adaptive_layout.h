@@ -7,7 +7,7 @@
 
 namespace contrejour::inline internal::vulkan {
 
-inline constexpr std::uint32_t kSearchLevels = 4, kMostLevels = 6;  // LEVELS
+inline constexpr std::uint32_t kSearchLevels = 4, kMostLevels = 6;  // LAST_LEVEL + 1, LEVELS
 inline constexpr std::uint32_t kFirstSearchBlocks = 13, kSearchBlocks = 4;  // search_blocks()
 
 // The parameters of a dispatch: the shaders' push constants, in their order.

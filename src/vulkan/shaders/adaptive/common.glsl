@@ -109,6 +109,7 @@ vec3 state_gain(uint item) {
 
 // The box of a level of the search, from the bounds that the level before found.
 uint cells_of_level(uint level) { return COARSE_CELLS * (level == 0u ? 3u : 2u); }
+#define LAST_LEVEL 3u  // of the search: at the wavelengths of all items, whose pupils may lie beside each other
 #define SCANS 4u  // workgroups that scan a group's meridian, at the first level
 uint search_blocks(uint level) { return level == 0u ? 9u + SCANS : 4u; }
 vec4 box_of_level(uint group, uint level) {
@@ -121,10 +122,13 @@ vec4 box_of_level(uint group, uint level) {
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
   vec2 step_mm = box.zw / float(cells);
   vec2 low = vec2(cells - f.x, cells - f.y);
-  return vec4(box.xy + low * step_mm, (vec2(f.zw) - low) * step_mm);
+  vec4 narrowed = vec4(box.xy + low * step_mm, (vec2(f.zw) - low) * step_mm);
+  const float margin = 0.1;
+  if (level == LAST_LEVEL) narrowed = vec4(narrowed.xy - margin * narrowed.zw, (1.0 + 2.0 * margin) * narrowed.zw);
+  return narrowed;
 }
 
-// The box in which a group's rays are traced: with a margin for the other wavelengths.
+// The box in which a group's rays are traced.
 vec4 final_box(uint group) {
   const float margin = 0.04;
   vec4 box = box_of_level(group, p.level);

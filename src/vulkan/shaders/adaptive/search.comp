@@ -123,7 +123,7 @@ void main() {
   vec4 box = box_of_level(group, p.level);
   if (block == 0u && k == 0u) boxes[at_level] = box;
   if (!(box.z > 0.0)) return;
-  if (p.level > 0u) {
+  if (p.level > 0u && p.level < LAST_LEVEL) {
     vec4 before = boxes[at_level - 1u];
     if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
       if (block == 0u && k < 4u) found[8u * at_level + k] = cells;
@@ -132,10 +132,17 @@ void main() {
   }
   if (k < 8u) bounds_found[k] = 0u;
   uint grid_blocks = cells * cells / (COARSE_CELLS * COARSE_CELLS);
-  if (block < grid_blocks)
-    search_block(item, box, cells, block);
-  else
+  if (block >= grid_blocks) {
     scan_meridian(item, box, cells, block - grid_blocks);
+  } else if (p.level < LAST_LEVEL) {
+    search_block(item, box, cells, block);
+  } else {
+    uint first = group_word(group, 0u), end = first + group_word(group, 1u);
+    for (uint each = first; each < end; ++each) {
+      search_block(each, box, cells, block);
+      barrier();
+    }
+  }
   barrier();
   if (k < 8u && bounds_found[k] > 0u) atomicMax(found[8u * at_level + k], bounds_found[k]);
 }
