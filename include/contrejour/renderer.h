@@ -29,12 +29,12 @@ enum class Device { Cpu, Vulkan, Auto };
 
 // Where a frame goes.
 struct FrameTarget {
-  // As large as settings.frame, which may be a region of a larger picture. A view by default, of no size: the frame is
-  // rendered and not written, to measure its time without that of copying it from a device.
-  ImageView pixels = {};
+  ImageView pixels;  // as large as settings.frame, which may be a region of a larger picture
   // Called once with a draft in the pixels, before the frame itself is rendered: the same flare by `adaptive` at an
   // RMS error of 0.02. Empty: no draft.
   std::function<void()> draft_is_ready = {};
+  // The frame is rendered and not written, whatever the pixels: to measure it without copying it from a device.
+  bool is_discarded = false;
 };
 
 class CONTREJOUR_API Renderer {

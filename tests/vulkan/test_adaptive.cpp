@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of `adaptive` that a device draws by its own data flow, against the CPU's at a thirtieth of the error.
-#include <cstdlib>
-
 #include "device_frames.h"
 
 using namespace contrejour;
@@ -23,12 +21,6 @@ void check_near(OnDevice& device, const LensState& lens, std::span<const Light> 
   INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
   CHECK(c.psnr_db > -20.0 * std::log10(error));
   CHECK(c.flux_error < 0.03);
-}
-
-// The number of frames of the soak: a few, or as many as the environment says.
-int soak_frames() {
-  const char* const wanted = std::getenv("CONTREJOUR_SOAK_FRAMES");
-  return wanted == nullptr ? 60 : std::atoi(wanted);
 }
 
 }  // namespace
@@ -62,36 +54,4 @@ TEST_CASE("adaptive draws near lights, several lights and a window of the frame 
   std::vector<Light> near = kTwoLights;
   near.back().distance_mm = 800.0;
   check_near(device, lens, near, settings);
-}
-
-TEST_CASE("a frame of adaptive is the same bits from run to run, and from a device that drew others") {
-  OnDevice device, fresh;
-  if (!device.kept.device) return;
-  const LensState lens = lens_of("heliar"), other = lens_of("tessar");
-  const FrameSettings settings = settings_of(lens), others = settings_of(other, 64, 36);
-  const MethodOptions method = AdaptiveOptions{};
-  const Flare first = frame_by(method, lens, kTwoLights, settings, device.cache);
-  for (const MethodOptions& between : {method, MethodOptions(BundleOptions{.grid = {.rays = 24}})}) {
-    static_cast<void>(frame_by(between, other, std::span(kTwoLights).first(1), others, device.cache));
-    CHECK(frame_by(method, lens, kTwoLights, settings, device.cache).image.pixels == first.image.pixels);
-  }
-  CHECK(frame_by(method, lens, kTwoLights, settings, fresh.cache).image.pixels == first.image.pixels);
-}
-
-TEST_CASE("adaptive: after the first frames the device's memory stays as it is") {
-  OnDevice device;
-  if (!device.kept.device) return;
-  const LensState lenses[] = {lens_of("heliar"), lens_of("tessar", 6, 11.0), lens_of("heliar", 0, 16.0)};
-  std::uint64_t after_first = 0;
-  for (int k = 0; k < soak_frames(); ++k) {
-    const LensState& lens = lenses[k % 3];
-    std::vector<Light> lights{{.direction = direction_from_angles(0.0001 * (k % 1000), 0.05)}};
-    if (k % 4 == 0) lights.push_back(kTwoLights.back());
-    FrameSettings settings = settings_of(lens, 32 + k % 5 * 8, 32);
-    settings.selection = SelectBrightest{2};
-    static_cast<void>(frame_by(AdaptiveOptions{}, lens, lights, settings, device.cache));
-    if (k == 30) after_first = device.kept.device->memory_bytes();
-  }
-  CHECK(device.kept.device->memory_bytes() == after_first);
-  test::check_no_messages();
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames drawn by the device against those of the CPU's same method.
+#include <cstdlib>
+
 #include "device_frames.h"
 
 using namespace contrejour;
@@ -19,6 +21,12 @@ void check_same(OnDevice& device, const MethodOptions& method, const LensState& 
   INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
   CHECK(c.psnr_db > least_db);
   CHECK(c.flux_error < 1e-3);
+}
+
+// As many frames as the environment says, or a few.
+int soak_frames() {
+  const char* const wanted = std::getenv("CONTREJOUR_SOAK_FRAMES");
+  return wanted == nullptr ? 120 : std::atoi(wanted);
 }
 
 MethodOptions bundle_of(int rays) { return BundleOptions{.grid = {.rays = rays}}; }
@@ -77,7 +85,7 @@ TEST_CASE("a frame is the same bits from run to run, and from a device that drew
   const LensState lens = lens_of("heliar"), other = lens_of("canon-70-200");
   FrameSettings settings = settings_of(lens), others = settings_of(other, 64, 36);
   settings.selection = others.selection = SelectBrightest{5};
-  for (const MethodOptions& method : {bundle_of(32), tiled_of(32)}) {
+  for (const MethodOptions& method : {bundle_of(32), tiled_of(32), MethodOptions(AdaptiveOptions{})}) {
     const Flare first = frame_by(method, lens, kTwoLights, settings, device.cache);
     static_cast<void>(frame_by(method, other, std::span(kTwoLights).first(1), others, device.cache));
     CHECK(frame_by(method, lens, kTwoLights, settings, device.cache).image.pixels == first.image.pixels);
@@ -145,16 +153,19 @@ TEST_CASE("a submission that takes longer than the limit fails its frame, and th
 TEST_CASE("the device's memory stays as it is over many frames") {
   OnDevice device;
   if (!device.kept.device) return;
-  const LensState heliar = lens_of("heliar"), closed = lens_of("heliar", 6, 11.0);
+  constexpr int kFirst = 60;  // frames after which every buffer has its size
+  const std::array lenses{lens_of("heliar"), lens_of("tessar", 6, 11.0), lens_of("heliar", 0, 16.0)};
   std::uint64_t after_first = 0;
-  for (int k = 0; k < 200; ++k) {
-    const LensState& lens = k % 2 == 0 ? heliar : closed;
-    const std::vector<Light> lights{{.direction = direction_from_angles(0.001 * k, 0.05)}};
+  for (int k = 0; k < soak_frames(); ++k) {
+    const LensState& lens = lenses[static_cast<std::size_t>(k % 3)];
+    std::vector<Light> lights{{.direction = direction_from_angles(0.0001 * (k % 1000), 0.05)}};
+    if (k % 4 == 0) lights.push_back(kTwoLights.back());
     FrameSettings settings = settings_of(lens, 32 + k % 5 * 8, 32);
     settings.wavelengths = 1;
     settings.selection = SelectBrightest{2};
-    static_cast<void>(frame_by(k % 3 == 0 ? tiled_of(16) : bundle_of(16), lens, lights, settings, device.cache));
-    if (k == 20) after_first = device.kept.device->memory_bytes();
+    const std::array<MethodOptions, 3> methods{AdaptiveOptions{}, tiled_of(16), bundle_of(16)};
+    static_cast<void>(frame_by(methods[static_cast<std::size_t>(k / 3 % 3)], lens, lights, settings, device.cache));
+    if (k == kFirst) after_first = device.kept.device->memory_bytes();
   }
   CHECK(device.kept.device->memory_bytes() == after_first);
   test::check_no_messages();

@@ -97,8 +97,8 @@ Result<DeviceSpeed> measure_device(const PaperSystem& system, const DeviceRun& r
   for (std::size_t frame = 0; times.count() < static_cast<std::size_t>(run.frames); ++frame) {
     const std::vector<Light> lights = moved(scene->lights, frame);
     const auto start = std::chrono::steady_clock::now();
-    auto statistics =
-        renderer->render(lights, scene->settings, frame == 0 ? FrameTarget{view_of(picture)} : FrameTarget{}, context);
+    const FrameTarget target{.pixels = view_of(picture), .draft_is_ready = {}, .is_discarded = frame > 0};
+    auto statistics = renderer->render(lights, scene->settings, target, context);
     if (!statistics) return tl::unexpected(statistics.error());
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
     if (frame == 0 && run.compares) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a coated surface reflects, for plots, and other coatings for single surfaces of a document as its --coating-at
-// values. Errors: InvalidArgument. Thread-safety: pure functions.
+// The reflectance of a coated surface, for plots, and other coatings for single surfaces of a document as its
+// --coating-at values. Errors: InvalidArgument. Thread-safety: pure functions.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panels show of the ghosts of one light: their figures, brightest first, and the section of the lens with
+// The ghosts of one light as panels show them: their figures, brightest first, and the section of the lens with
 // the rays of chosen ones. Thread-safety: as of LatestJob.
 #pragma once
 

@@ -25,7 +25,7 @@ class History {
   [[nodiscard]] const Document& now() const { return *steps_[position_].document; }
   [[nodiscard]] std::shared_ptr<const Document> shared_now() const { return steps_[position_].document; }
 
-  // What had been undone is dropped.
+  // Commands that had been undone are dropped.
   void push(std::string name, std::string merge_key, Document next);
   void seal() { sealed_ = true; }
 

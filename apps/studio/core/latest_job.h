@@ -20,7 +20,7 @@ namespace contrejour::studio {
 template <class Request, class Answer>
 class LatestJob {
  public:
-  // What the work sees of its job.
+  // The job as its work sees it.
   class Control {
    public:
     explicit Control(LatestJob& job) : job_(job) {}

@@ -49,7 +49,7 @@ View view_of_json(const std::string& text) {
   return view;
 }
 
-// What does not change the image of a light while it moves: other ghosts, and how the picture is shown.
+// Settings that do not change the image of a light while it moves: other ghosts, and how the picture is shown.
 bool leaves_stars_alone(std::string_view name) {
   return name == "light-at" || name == "select" || name == "ghost" || name == "exposure" || name == "error";
 }

@@ -27,7 +27,7 @@ struct Selection {
   int surface = 0;  // 1-based; 0: none
 };
 
-// What of the view is saved with a session, apart from its content.
+// The parts of the view that are saved with a session, apart from its content.
 struct View {
   double zoom = 1.0;  // of the picture that just fits
   Vec2 pan;  // of its middle, in parts of the fitting picture's size

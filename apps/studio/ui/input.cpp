@@ -11,7 +11,7 @@
 namespace contrejour::studio {
 namespace {
 
-// What one frame has seen so far.
+// The input that one frame has seen so far.
 struct FrameInput {
   bool moved = false, pressed = false, typed = false;
   std::set<int> buttons, keys;

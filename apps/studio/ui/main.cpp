@@ -77,7 +77,7 @@ void wait_for_reason(Window& window, Studio& studio, double seconds) {
   } while (left > 0 && window.input().is_empty() && studio.changes() == changes && !window.wants_attention());
 }
 
-// What was asked of the window itself.
+// The options of the window itself.
 void answer_window(Window& window, Interface& interface) {
   if (window.wants_to_close()) {
     window.refuse_to_close();

@@ -24,7 +24,7 @@ bool has_panel_of_its_own(const Parameter& p) {
   return p.name == "light" || p.name == "light-at" || p.name == "threads" || p.group == "Light detection";
 }
 
-// What the lens or the picture gives where the user has not set it.
+// The value that the lens or the picture gives where the user has not set one.
 std::string default_text(const Ui& ui, const Parameter& p) {
   if (!p.fallback.empty()) return std::string(p.fallback);
   if (p.name == "focal") return fmt::format("{:.4g}", ui.studio.lens().focal_length_mm);

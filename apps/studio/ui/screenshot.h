@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window shows, as a PNG. Needs a current OpenGL context, before its buffers are swapped.
+// A picture of the window, as a PNG. Needs a current OpenGL context, before its buffers are swapped.
 #pragma once
 
 #include <string>

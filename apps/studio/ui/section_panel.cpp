@@ -87,7 +87,7 @@ void draw_stop_and_sensor(ImDrawList& list, const LensSection& section, const Se
                scaled(3));
 }
 
-// Where the light comes from and leaves to is cut off at the drawing's sides.
+// Rays are cut off at the drawing's sides.
 void draw_rays(ImDrawList& list, const LensSection& section, const SectionMap& map) {
   for (const SectionRay& ray : section.rays) {
     const bool ghost = ray.kind == SectionRayKind::Ghost;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kHandleRadius = 9, kReach = 14;
 
-// Where a light's handle is drawn: inside the viewport, also for a light outside it.
+// The place of a light's handle: inside the viewport, also for a light outside it.
 ImVec2 handle_of(const ViewportMap& map, Vec2 uv) {
   const ImVec2 at = map.screen_of_uv(uv);
   const float inset = scaled(kHandleRadius + 5);

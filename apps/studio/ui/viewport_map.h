@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the picture lies on the screen. Thread-safety: a plain value.
+// The place of the picture on the screen. Thread-safety: a plain value.
 #pragma once
 
 #include <imgui.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panels are made of: widgets that also record where they are, under a name that does not change, for the test
-// port and for the dump of the state. Thread-safety: the thread of the interface.
+// The widgets that panels are made of, which also record where they are, under a name that does not change, for the
+// test port and for the dump of the state. Thread-safety: the thread of the interface.
 #pragma once
 
 #include <initializer_list>
@@ -72,7 +72,7 @@ struct InterfaceState {
   std::vector<LostWork> lost;
 };
 
-// What every panel is given.
+// The arguments of every panel.
 struct Ui {
   Studio& studio;
   InterfaceState& state;

@@ -102,13 +102,12 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
                                           const FrameTarget& target, const Context& context) {
   state_->cache.next_frame();
   const Frame& frame = settings.frame;
-  const bool is_written = target.pixels.pixels != nullptr || target.pixels.width != 0;
-  if (const auto good = check_view(target.pixels, frame.width, frame.height); is_written && !good)
+  if (const auto good = check_view(target.pixels, frame.width, frame.height); !target.is_discarded && !good)
     return tl::unexpected(good.error());
   Context quiet = context;
   quiet.progress = {};
   double drafted = 0.0;
-  if (target.draft_is_ready && is_written) {
+  if (target.draft_is_ready && !target.is_discarded) {
     auto draft = state_->render(AdaptiveOptions{kDraftError}, lights, settings, quiet);
     if (!draft) return tl::unexpected(draft.error());
     if (const auto written = state_->write(std::move(*draft), target.pixels, quiet); !written) return written;
@@ -116,11 +115,11 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
     drafted = kDraftProgress;
   }
   KeptDevice& kept = *state_->cache.section<KeptDevice>({});
-  kept.reads_pictures = is_written;
+  kept.reads_pictures = !target.is_discarded;
   auto flare = state_->render(state_->method, lights, settings, rest_of(context, drafted));
   kept.reads_pictures = true;
   if (!flare) return tl::unexpected(flare.error());
-  if (!is_written) return std::move(flare->statistics);
+  if (target.is_discarded) return std::move(flare->statistics);
   return state_->write(std::move(*flare), target.pixels, quiet);
 }
 

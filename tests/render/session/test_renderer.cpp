@@ -215,6 +215,9 @@ TEST_CASE("what a renderer refuses") {
   Image other(61, 40);
   CHECK_FALSE(session.render(f.lights, f.settings, {.pixels = view_of(other)}).has_value());
   CHECK_FALSE(session.render(f.lights, f.settings, FrameTarget{}).has_value());
+  FrameTarget nowhere;
+  nowhere.is_discarded = true;
+  CHECK(session.render(f.lights, f.settings, nowhere).has_value());
   CHECK(session.render(f.lights, f.settings).has_value());
   REQUIRE(session.set_method(BundleOptions{.grid = {.rays = 1}}).has_value());
   CHECK_FALSE(session.render(f.lights, f.settings).has_value());
