@@ -92,7 +92,7 @@ std::uint64_t least_dpx_bytes(const OIIO::ImageSpec& spec, std::span<const std::
   return number(4, 4) + row * std::uint64_t(spec.height);
 }
 
-// What the file states is checked before OpenImageIO opens it, too.
+// The sizes that the file states are checked before OpenImageIO opens it, too.
 Result<void> check_before_opening(std::span<const std::byte> bytes, const std::string& format,
                                   const ReadLimits& limits) {
   if (format == "dpx" && claims_too_much_user_data(bytes))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file states before it is opened, so that a few bytes that claim much memory are refused first: OpenImageIO
-// allocates some of it while it opens a file. Thread-safety: pure functions.
+// The sizes that a file states, read before it is opened, so that a few bytes that claim much memory are refused first:
+// OpenImageIO allocates some of it while it opens a file. Thread-safety: pure functions.
 #pragma once
 
 #include <cstddef>

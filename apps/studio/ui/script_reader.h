@@ -34,7 +34,7 @@ struct ScriptReader {
   void wait_until_shown();
   void wait_seconds(double seconds);
   void save_picture(const std::string& file);
-  // Any input at all, anywhere, for so many frames; the same for the same seed.
+  // Random input of every kind, anywhere, for this number of frames; the same for the same seed.
   void random_input(unsigned seed, int count);
 };
 

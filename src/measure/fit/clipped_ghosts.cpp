@@ -47,7 +47,7 @@ double cost_of(const FlareFit& fit, const std::vector<FitStation>& stations, con
   return problem.cost(problem.layout.pack(flare));
 }
 
-// What all other ghosts leave of the pictures.
+// The pictures without the light of all other ghosts.
 struct OtherResiduals {
   std::vector<FitStation> fitted, held;
 };

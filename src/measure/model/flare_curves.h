@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, kGhostCurves> kCurveNames{
           &g.border[0], &g.border[1],  &g.border[2], &g.inside[0],   &g.inside[1],   &g.inside[2]};
 }
 
-// Those of the circle that cuts an outline: the only curves that a ghost may lack altogether.
+// The curves of the circle that cuts an outline: the only ones that a ghost may lack altogether.
 inline constexpr std::size_t kClipCentre = 10, kClipRadius = 11;
 [[nodiscard]] constexpr bool is_clip_curve(std::size_t k) { return k == kClipCentre || k == kClipRadius; }
 

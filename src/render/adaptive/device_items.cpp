@@ -20,7 +20,7 @@ struct LayerItems {
   std::vector<DeviceGroup> groups;
 };
 
-// What all layers have in common.
+// The data that all layers have in common.
 struct FrameItems {
   std::vector<double> lambda_nm;  // of all lights, in order
   std::vector<EntranceWindow> windows;  // by light

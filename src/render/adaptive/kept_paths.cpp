@@ -4,7 +4,7 @@
 namespace contrejour::inline internal::adaptive {
 namespace {
 
-// What the paths refer to.
+// The data that the paths refer to.
 struct Owner {
   LensState lens;
   TablesByWavelength tables;

@@ -17,7 +17,7 @@ namespace contrejour::inline internal {
 // Draws the light of a layer into its image, which it replaces.
 using DrawLayer = std::function<Result<DeviceWork>(std::size_t layer, Image& image, const Context& context)>;
 
-// What a frame is drawn into, and what is known of it before.
+// The frame that is drawn, and what is known of it before.
 struct DeviceTarget {
   const FramePlan& plan;
   const Frame& frame;

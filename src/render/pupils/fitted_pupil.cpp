@@ -7,8 +7,8 @@
 namespace contrejour::inline internal::pupils {
 namespace {
 
-// Of the first grid and of the others; half as many rows in a box that touches the axis. The first one is fine, since a
-// fit far outside the light may take any values, which coarse cells would join with those of the light.
+// The sides of the first grid and of the others; half as many rows in a box that touches the axis. The first one is
+// fine, since a fit far outside the light may take any values, which coarse cells would join with those of the light.
 constexpr int kFirstEvaluatedColumns = 24, kEvaluatedColumns = 8;
 constexpr float kEvaluatedMargin = 0.5F;  // ClearanceGrid::may_transmit
 constexpr double kWorthLevel = 0.6;  // of the area

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays come from: they are traced through the lens, or evaluated from a fit of the ghost. Those who search pupils
+// The source of rays: they are traced through the lens, or evaluated from a fit of the ghost. Those who search pupils
 // and draw ghosts ask for rays here, and do not depend on which it is.
 // Thread-safety: a source serves one thread at a time; fits are shared by all.
 #pragma once
