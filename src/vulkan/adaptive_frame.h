@@ -24,7 +24,7 @@ struct AdaptiveCapacity {
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
-// What stays on the device from frame to frame.
+// The data that stay on the device from frame to frame, and the sizes of its buffers.
 struct AdaptiveKept {
   AdaptiveCapacity capacity;
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none

@@ -100,7 +100,7 @@ class DeviceContext {
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
   void barrier();  // what follows sees what came before
   void finish();   // submits, and waits for the end
-  // What the host shall read: the first bytes of a buffer, at this byte of what read() returns after finish().
+  // Copies the first bytes of a buffer to where the host reads them: read() at the same byte, after finish().
   void fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte = 0);
   template <class T>
   [[nodiscard]] const T* read(std::uint64_t byte = 0) const {

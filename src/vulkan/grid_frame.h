@@ -61,7 +61,7 @@ class GridFrame {
 
 [[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
 [[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
-// Of a table, at angles of incidence up to 75 degrees.
+// The largest value of a table at angles of incidence up to 75 degrees.
 [[nodiscard]] double largest_reflectance(const float* table);
 
 }  // namespace contrejour::inline internal::vulkan

@@ -46,7 +46,7 @@ struct PixelMap {
 };
 [[nodiscard]] PixelMap pixel_map(const Frame& frame, Vec2 shift_mm);
 
-// Where the numbers of a path begin.
+// The places at which the numbers of a path begin.
 struct PathPlace {
   std::uint32_t reals_at = 0, integers_at = 0;
 };

@@ -71,6 +71,16 @@ struct OnDevice {
   }
 };
 
+// Checks that the device drew a frame, and how far it is from one of the CPU.
+inline void check_agreement(const OnDevice& device, const LensState& lens, const Flare& exact, const Flare& got,
+                            const Agreement& least) {
+  CHECK(got.statistics.device == device.kept.device->info().name);
+  const Agreement c = agreement_of(exact.image, got.image);
+  INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
+  CHECK(c.psnr_db > least.psnr_db);
+  CHECK(c.flux_error < least.flux_error);
+}
+
 inline const std::vector<Light> kTwoLights{{.direction = direction_from_angles(0.11, 0.06)},
                                            {.direction = direction_from_angles(-0.05, 0.13), .value = {4.0, 2.0, 1.0}}};
 

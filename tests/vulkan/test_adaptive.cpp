@@ -3,7 +3,7 @@
 #include "device_frames.h"
 
 using namespace contrejour;
-using test::agreement_of, test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
+using test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
 
 namespace {
 
@@ -16,11 +16,7 @@ void check_near(OnDevice& device, const LensState& lens, std::span<const Light> 
   RenderCache on_cpu;
   const Flare exact = frame_by(AdaptiveOptions{kFine}, lens, lights, colour, on_cpu);
   const Flare got = frame_by(AdaptiveOptions{error}, lens, lights, colour, device.cache);
-  CHECK(got.statistics.device == device.kept.device->info().name);
-  const test::Agreement c = agreement_of(exact.image, got.image);
-  INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
-  CHECK(c.psnr_db > -20.0 * std::log10(error));
-  CHECK(c.flux_error < 0.03);
+  test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(error), 0.03});
 }
 
 }  // namespace

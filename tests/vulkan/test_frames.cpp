@@ -5,7 +5,7 @@
 #include "device_frames.h"
 
 using namespace contrejour;
-using test::agreement_of, test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
+using test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
 
 namespace {
 
@@ -15,12 +15,8 @@ void check_same(OnDevice& device, const MethodOptions& method, const LensState& 
   RenderCache on_cpu;
   const Flare exact = frame_by(method, lens, lights, settings, on_cpu);
   const Flare got = frame_by(method, lens, lights, settings, device.cache);
-  CHECK(got.statistics.device == device.kept.device->info().name);
   CHECK(got.statistics.rays == exact.statistics.rays);
-  const test::Agreement c = agreement_of(exact.image, got.image);
-  INFO(lens.name, ": ", c.psnr_db, " dB, flux off by ", c.flux_error);
-  CHECK(c.psnr_db > least_db);
-  CHECK(c.flux_error < 1e-3);
+  test::check_agreement(device, lens, exact, got, {least_db, 1e-3});
 }
 
 // As many frames as the environment says, or a few.

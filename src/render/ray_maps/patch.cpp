@@ -58,7 +58,7 @@ bool is_closed(const LobattoRays& ray_set, const std::array<std::size_t, 4>& cor
   return false;
 }
 
-// Of the nodes that count, or of all if none does.
+// The largest size of a field at the nodes that count, or at all if none does.
 double largest_size(const Patch& patch, int of_field) {
   const float* const field = patch.field(of_field);
   float largest = 0.0F;

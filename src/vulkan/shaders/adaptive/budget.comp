@@ -45,7 +45,7 @@ float find_peak() {
     }
   }
   barrier();
-  // Where less than a thousandth of the frame is lit, the faintest light is the peak.
+  // If less than a thousandth of the frame is lit, the faintest light is the peak.
   if (chosen == 0u) {
     for (uint k = 0u; k < 4u; ++k)
       if (own[k] != 0u) atomicMax(faintest, BINS - (4u * t + k));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the items of a group, one group a workgroup, from 16 x 16 rays each: how far a grid of so many cells would be
+// Measures the items of a group, one group a workgroup, from 16 x 16 rays each: how far a grid of this many cells would be
 // off, whether another wavelength may serve, and how large a part of the frame has which level, for the frame's peak.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -111,13 +111,16 @@ float part_in_frame(uint k) {
   return part.x * part.y;
 }
 
-// Overlapping ghosts count one by one: the peak is not overestimated.
+// Overlapping ghosts count one by one: the peak is not overestimated. A bin that has as much as is wanted need not be
+// exact, here and in publish_histogram(), so that none overflows.
 void add_to_histogram(float area_px, Cell cell, vec3 gain) {
-  uint counted = uint(min(area_px * PIXEL_PARTS, 1.0e8) + 0.5);
+  uint wanted = wanted_parts();
+  uint counted = uint(min(area_px * PIXEL_PARTS, float(wanted)) + 0.5);
   if (counted == 0u) return;
   for (uint c = 0u; c < 3u; ++c) {
     float value = cell.density * gain[c];
-    if (value > 0.0) atomicAdd(histogram[floatBitsToUint(value) >> BIN_SHIFT], counted);
+    uint bin = floatBitsToUint(value) >> BIN_SHIFT;
+    if (value > 0.0 && histogram[bin] < wanted) atomicAdd(histogram[bin], counted);
   }
 }
 
@@ -125,13 +128,11 @@ void publish_histogram() {
   barrier();
   uint wanted = wanted_parts();
   for (uint bin = gl_LocalInvocationIndex; bin < BINS; bin += 256u) {
-    // A bin that has as much as is wanted need not be exact, and must not overflow.
     if (histogram[bin] != 0u && sums[bin] < wanted) atomicAdd(sums[bin], min(histogram[bin], wanted));
   }
 }
 
-// Of the cell in the group's middle item.
-float middle_density = 0.0;
+float middle_density = 0.0;  // of the cell, in the group's middle item
 
 void trace_corner(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;

@@ -16,7 +16,7 @@ shared uint tile_sums[TILE_WORDS];
 shared uint plane_sums[18];  // of polygons that cover the tile: value at the first pixel, slopes, by channel
 shared uint others[256];
 shared uint others_count;
-// Of polygons that are prepared.
+// The polygons that are prepared.
 shared vec4 edges[256];
 shared uint edge_counts[32];  // 0: not prepared
 shared ivec4 boxes_of_polygons[32];
@@ -129,7 +129,7 @@ void prepare(uint from, uint count) {
   if (is_convex && e < corners) {
     vec2 a = large_corners[first + e] - origin, b = large_corners[first + (e + 1u == corners ? 0u : e + 1u)] - origin;
     vec2 along = b - a;
-    // Of the middle of the tile's pixel (x, y): positive inside, beyond w in the whole pixel.
+    // For the middle of the tile's pixel (x, y): positive inside, above w where the whole pixel is.
     edges[t] = vec4(-along.y, along.x, along.x * (0.5 - a.y) - along.y * (0.5 - a.x), 0.5 * (abs(along.x) + abs(along.y)));
   }
   if (e != 0u) return;

@@ -34,8 +34,7 @@ bool near_stop_beside_failing(uvec4 v, uint c) {
 }
 
 // Light may pass where the stop is near and the relative height does not fall below its lowest corner by more than the
-// corners differ (open_cells.h). Until the last level heights do not count: around an opening smaller than a cell they are
-// alike at all corners, as distances from the stop are. Corners whose rays fail are ignored.
+// corners differ (open_cells.h). Corners whose rays fail are ignored.
 bool may_transmit(uvec4 v, uint crossing_count) {
   int good = 0;
   vec2 height = vec2(FAILED, -FAILED);
