@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # contrejour_jumbo(TARGET): compiles several files of the target as one, so that the headers they share are read once.
-# This takes two to three times less processor time for a whole build. Names in unnamed namespaces must differ within a
-# target. Two functions of the same name are often the same function, which then belongs in a header.
+# This takes two to four times less processor time for a whole build: twelve files at a time, the command line took twice
+# as long as it does with all of its files in three batches. Names in unnamed namespaces must differ within a target. Two functions of the same name are often the same function, which then belongs in a header.
 #
 # Kernels that Highway compiles once for each instruction set include themselves, so each remains a unit of its own.
 option(CONTREJOUR_JUMBO "Compile files in batches: builds everything sooner, a changed file later" ON)
-set(CONTREJOUR_JUMBO_BATCH 12 CACHE STRING "Files a batch")
+set(CONTREJOUR_JUMBO_BATCH 48 CACHE STRING "Files a batch; with fewer, a changed file compiles sooner")
 
 function(contrejour_jumbo target)
   if(NOT CONTREJOUR_JUMBO)

@@ -10,7 +10,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr std::size_t kRows = kRowsPerOctave;
+constexpr std::size_t kOctaveRows = kRowsPerOctave;
 constexpr double kBetweenRays_px = 0.1;  // at an octave's end: chords are nearly linear between rays
 
 // The direction in half turns from straight down.
@@ -85,19 +85,19 @@ NearField::NearField(std::span<const CellOctave> octaves, double first_px,
     Octave octave;
     octave.first_row_px = first_px * row_ratio(-0.5);
     octave.first_px = octaves_.empty() ? 0.0 : octave.first_row_px;
-    octave.end_px = first_px * row_ratio(static_cast<double>(kRows) - 0.5);
+    octave.end_px = first_px * row_ratio(static_cast<double>(kOctaveRows) - 0.5);
     octave.edge = from.edge;
     for (const double turn : from.edge) octave.along.push_back({std::sin(turn * kPi), -std::cos(turn * kPi)});
     std::vector<double> row_weight;
-    for (std::size_t row = 0; row <= kRows; ++row) {
+    for (std::size_t row = 0; row <= kOctaveRows; ++row) {
       const double edge = row == 0 ? octave.first_px : first_px * row_ratio(static_cast<double>(row) - 0.5);
       octave.row_edge2.push_back(edge * edge);
       row_weight.push_back(weight(first_px * row_ratio(static_cast<double>(row))));
     }
-    octave.below.resize(from.cells() * (kRows + 1));
+    octave.below.resize(from.cells() * (kOctaveRows + 1));
     for (std::size_t cell = 0; cell < from.cells(); ++cell) {
-      std::array<double, 3>* const below = octave.below.data() + cell * (kRows + 1);
-      for (std::size_t row = 0; row < kRows; ++row) {
+      std::array<double, 3>* const below = octave.below.data() + cell * (kOctaveRows + 1);
+      for (std::size_t row = 0; row < kOctaveRows; ++row) {
         const double area = 0.5 * (octave.row_edge2[row + 1] - octave.row_edge2[row]) * row_weight[row];
         for (std::size_t c = 0; c < 3; ++c) below[row + 1][c] = below[row][c] + area * from.at(row, cell)[c];
       }
@@ -110,11 +110,11 @@ NearField::NearField(std::span<const CellOctave> octaves, double first_px,
 // Adds the flux between two radii in a cell; weight: radians.
 void NearField::add_ray(const Octave& octave, std::size_t cell, double weight, double from_px, double to_px,
                         std::array<double, 3>& sum) {
-  const std::array<double, 3>* const below = octave.below.data() + cell * (kRows + 1);
+  const std::array<double, 3>* const below = octave.below.data() + cell * (kOctaveRows + 1);
   const auto add_within = [&](double radius_px, double sign) {
     const double position =
         radius_px > octave.first_row_px ? kRowsPerOctave * std::log2(radius_px / octave.first_row_px) : 0.0;
-    const std::size_t row = std::min(static_cast<std::size_t>(position), kRows - 1);
+    const std::size_t row = std::min(static_cast<std::size_t>(position), kOctaveRows - 1);
     const double inner = octave.row_edge2[row];
     const double t = (radius_px * radius_px - inner) / (octave.row_edge2[row + 1] - inner);
     for (std::size_t c = 0; c < 3; ++c) sum[c] += sign * (below[row][c] + t * (below[row + 1][c] - below[row][c]));

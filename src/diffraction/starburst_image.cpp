@@ -42,7 +42,7 @@ constexpr double kCoreFrom_px = 16.0, kCoreTo_px = 20.0;
 constexpr int kCellsPerPixel = 8;
 constexpr int kCorePixels = 42;
 constexpr int kCoreCells = kCorePixels * kCellsPerPixel;
-constexpr int kRowsAtOnce = 8;     // neighbouring rows read the same samples
+constexpr int kPixelRowsAtOnce = 8;     // neighbouring rows read the same samples
 
 double core_weight(double r_px) {
   const double t = std::clamp((r_px - kCoreFrom_px) / (kCoreTo_px - kCoreFrom_px), 0.0, 1.0);
@@ -174,10 +174,10 @@ void add_starburst(Image& image, const StarburstImage& starburst_image, Vec2 cen
   add_core(image, samples.core, centre_px, flux);
   const std::array<float, 3> scale{static_cast<float>(flux[0]), static_cast<float>(flux[1]),
                                    static_cast<float>(flux[2])};
-  const int blocks = (image.height + kRowsAtOnce - 1) / kRowsAtOnce;
+  const int blocks = (image.height + kPixelRowsAtOnce - 1) / kPixelRowsAtOnce;
   parallel_for(static_cast<std::size_t>(blocks), context, [&](std::size_t block) {
-    const int first = static_cast<int>(block) * kRowsAtOnce;
-    draw_rows(image, samples, centre_px, scale, first, std::min(first + kRowsAtOnce, image.height));
+    const int first = static_cast<int>(block) * kPixelRowsAtOnce;
+    draw_rows(image, samples, centre_px, scale, first, std::min(first + kPixelRowsAtOnce, image.height));
   });
 }
 

@@ -14,10 +14,10 @@ namespace {
 constexpr double kStepOfSpread = 1.0 / 5.0;  // between the table's directions
 constexpr double kMaxSpreads = 3.5;         // on either side: 0.05 per cent of slopes lie beyond
 constexpr double kFirstK = 64.0;  // the mask's samples extend beyond this
-constexpr double kRowsPerOctave = 12.0;
-constexpr std::size_t kRows = 180;  // up to k = 2e6, beyond which only fans remain, which fall as k^-3
+constexpr double kFrequenciesPerOctave = 12.0;
+constexpr std::size_t kFrequencies = 180;  // up to k = 2e6, beyond which only fans remain, which fall as k^-3
 
-double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(row) / kRowsPerOctave); }
+double k_of(std::size_t row) { return kFirstK * std::exp2(static_cast<double>(row) / kFrequenciesPerOctave); }
 
 // Weights of a normal distribution, in steps of kStepOfSpread about its middle.
 std::vector<double> slope_weights() {
@@ -40,12 +40,12 @@ UnevenEdges::UnevenEdges(const IrisOpening& opening, double slope_spread_rad, co
   if (!(slope_spread_rad >= kMinSpread_rad)) return;
   directions_ = static_cast<std::size_t>(std::ceil(kPi / (kStepOfSpread * slope_spread_rad)));
   const double step_rad = kPi / static_cast<double>(directions_);
-  std::vector<float> exact(directions_ * kRows);
+  std::vector<float> exact(directions_ * kFrequencies);
   parallel_for(directions_, context, [&](std::size_t i) {
     const EdgeWaves::Direction direction = exact_.along(step_rad * static_cast<double>(i), step_rad);
-    for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t row = 0; row < kFrequencies; ++row) {
       const double k = k_of(row);
-      exact[i * kRows + row] = static_cast<float>(k * k * k * direction.power(k));
+      exact[i * kFrequencies + row] = static_cast<float>(k * k * k * direction.power(k));
     }
   });
   const std::vector<double> weights = slope_weights();
@@ -53,8 +53,8 @@ UnevenEdges::UnevenEdges(const IrisOpening& opening, double slope_spread_rad, co
   parallel_for(directions_, context, [&](std::size_t i) {
     for (std::size_t s = 0; s < weights.size(); ++s) {
       const std::size_t from = (i + s + (weights.size() / 2) * (directions_ - 1)) % directions_;
-      for (std::size_t row = 0; row < kRows; ++row)
-        power_k3_[i * kRows + row] += static_cast<float>(weights[s]) * exact[from * kRows + row];
+      for (std::size_t row = 0; row < kFrequencies; ++row)
+        power_k3_[i * kFrequencies + row] += static_cast<float>(weights[s]) * exact[from * kFrequencies + row];
     }
   });
 }
@@ -67,15 +67,15 @@ UnevenEdges::Direction UnevenEdges::along(double direction_rad, double window_ra
   }
   const double turns = direction_rad / kPi, at = (turns - std::floor(turns)) * static_cast<double>(directions_);
   const std::size_t here = static_cast<std::size_t>(at) % directions_;
-  direction.here_ = power_k3_.data() + here * kRows;
-  direction.next_ = power_k3_.data() + (here + 1) % directions_ * kRows;
+  direction.here_ = power_k3_.data() + here * kFrequencies;
+  direction.next_ = power_k3_.data() + (here + 1) % directions_ * kFrequencies;
   direction.next_weight_ = at - std::floor(at);
   return direction;
 }
 
 double UnevenEdges::Direction::power(double k) const {
   if (exact_) return exact_->power(k);
-  const double at = std::clamp(kRowsPerOctave * std::log2(k / kFirstK), 0.0, kRows - 1.001);
+  const double at = std::clamp(kFrequenciesPerOctave * std::log2(k / kFirstK), 0.0, kFrequencies - 1.001);
   const auto row = static_cast<std::size_t>(at);
   const double t = at - static_cast<double>(row);
   const auto along_rows = [&](const float* rows) { return std::lerp(rows[row], rows[row + 1], t); };

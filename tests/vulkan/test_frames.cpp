@@ -75,7 +75,7 @@ TEST_CASE("every interpolation of tiled is the CPU's") {
                std::span(kTwoLights).first(1), settings);
 }
 
-TEST_CASE("a frame is the same bits from run to run, and from a device that drew others") {
+TEST_CASE("a frame is the same bits from run to run, and from a device that drew others [slow]") {
   OnDevice device, fresh;
   if (!device.kept.device) return;
   const LensState lens = lens_of("heliar"), other = lens_of("canon-70-200");
@@ -146,7 +146,7 @@ TEST_CASE("a submission that takes longer than the limit fails its frame, and th
   test::messages().clear();  // the layer reports what was left behind
 }
 
-TEST_CASE("the device's memory stays as it is over many frames") {
+TEST_CASE("the device's memory stays as it is over many frames [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   constexpr int kFirst = 60;  // frames after which every buffer has its size

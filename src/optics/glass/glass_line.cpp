@@ -24,7 +24,7 @@ std::string_view next_word(std::string_view& part) {
   return word;
 }
 
-double number_of(std::string_view word) {
+double figure_of(std::string_view word) {
   double value = std::nan("");
   std::from_chars(word.data(), word.data() + word.size(), value);
   return value;
@@ -32,7 +32,7 @@ double number_of(std::string_view word) {
 
 std::vector<double> numbers_of(std::string_view part) {
   std::vector<double> values;
-  while (!part.empty()) values.push_back(number_of(next_word(part)));
+  while (!part.empty()) values.push_back(figure_of(next_word(part)));
   return values;
 }
 
@@ -50,8 +50,8 @@ GlassSummary read_summary(std::string_view& line, const std::string& maker) {
   summary.status = status_of(next_part(line));
   summary.code = next_part(line);
   std::string_view figures = next_part(line);
-  summary.n_d = number_of(next_word(figures));
-  summary.v_d = number_of(next_word(figures));
+  summary.n_d = figure_of(next_word(figures));
+  summary.v_d = figure_of(next_word(figures));
   return summary;
 }
 

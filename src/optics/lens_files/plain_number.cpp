@@ -4,14 +4,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace contrejour::inline internal {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Reads a number of any size; nothing for other text.
 std::optional<double> any_number(std::string_view cell) {

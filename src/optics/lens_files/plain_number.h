@@ -2,6 +2,7 @@
 // Numbers in other programs' lens files.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -9,6 +10,7 @@ namespace contrejour::inline internal {
 
 // Upper limit of numbers in lens files; a surface with a larger radius is a plane.
 inline constexpr double kLargestNumber = 1e9;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Reads the whole cell as a number of at most kLargestNumber in size; a leading '+' and Fortran's exponents (1.5D-3)
 // are allowed, -0 is 0. None for infinities, NaN and other text.

@@ -13,7 +13,7 @@ namespace {
 // Rays along a side of the grid that is summed, and of the grid that is traced; cubics interpolate the others. Few are
 // traced where the iris alone bounds the pupil, more where rims do, whose edges meet in corners, and all where rays
 // fail.
-constexpr int kSide = 97;
+constexpr int kMeterSide = 97;
 constexpr int kSmooth = 6;  // factor of fewer rays
 constexpr int kRims = 2;
 constexpr int kPicture = 4;  // factor of more rays for a picture's details
@@ -91,7 +91,7 @@ std::optional<Rectangle> DirectMeter::pupil(const ReflectanceTables& tables) con
   return found.is_empty() ? std::nullopt : std::optional(found.box());
 }
 
-// A grid of kSide rays a side over the box, up to rounding in the cubics' refinement.
+// A grid of kMeterSide rays a side over the box, up to rounding in the cubics' refinement.
 RayGrid DirectMeter::traced(const ReflectanceTables& tables, const Rectangle& box) const {
   const OpticalPath path = direct_path(lens_, tables.lambda_nm());
   RayGrid grid;
@@ -99,7 +99,7 @@ RayGrid DirectMeter::traced(const ReflectanceTables& tables, const Rectangle& bo
     grid.trace(path, tables, iris_, light_, window_.z_mm, box, side, flux_precision(box));
   };
   const auto all_arrive_with = [&](int refinement) {
-    trace((kSide - 1) / refinement + 1);
+    trace((kMeterSide - 1) / refinement + 1);
     return all_arrived(grid);
   };
   const int details = iris_.is_picture() ? kPicture : 1;
@@ -108,7 +108,7 @@ RayGrid DirectMeter::traced(const ReflectanceTables& tables, const Rectangle& bo
   else if (!path.obscured && all_arrive_with(kRims))
     grid.refine(iris_, kRims * details);
   else
-    trace((kSide - 1) * details + 1);
+    trace((kMeterSide - 1) * details + 1);
   return grid;
 }
 

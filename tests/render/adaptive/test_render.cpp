@@ -300,7 +300,7 @@ TEST_CASE("a ghost alone, of which the preview shows nothing") {
   }
 }
 
-TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
+TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is [slow]") {
   const LensState lens = test::bundled("itoh-zoom", {.f_number = 32.0, .iris = {7}});
   const Light light{.direction = normalized(Vec3{-0.295885, -0.285027, 0.911708})};
   test::Settings settings;
@@ -324,7 +324,7 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is") {
   }
 }
 
-TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whatever makes it") {
+TEST_CASE("ringing of a ghost alone comes to the truth as the error falls, whatever makes it [slow]") {
   // Cases: fringes as fine as pixels, of patterns and of edges; a ghost of five pixels, whose cells are smaller than
   // one.
   struct Case {

@@ -95,7 +95,7 @@ TEST_CASE("a window of the frame is that part of it") {
   });
 }
 
-TEST_CASE("finer pixels share the light of coarser ones") {
+TEST_CASE("finer pixels share the light of coarser ones [slow]") {
   const LensState lens = heliar();
   const test::Settings coarse = small_frame(lens, 80, 52);
   test::Settings fine = coarse;
@@ -109,7 +109,7 @@ TEST_CASE("finer pixels share the light of coarser ones") {
   });
 }
 
-TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
+TEST_CASE("a frame of one pixel holds what all pixels of the same area hold [slow]") {
   const LensState lens = heliar();
   const double width_mm = lens.sensor_height_mm;
   const test::Settings many = green({64, 64, 0, 0, 64, 64, width_mm / 64});
@@ -123,7 +123,7 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold") {
   });
 }
 
-TEST_CASE("the order in which wavelengths are given does not matter") {
+TEST_CASE("the order in which wavelengths are given does not matter [slow]") {
   const LensState lens = heliar();
   test::Settings settings = quick_frame(lens, 48, 32);
   settings.set_grid(48);

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "render/all_methods/methods.h"
+#include "support/sanitized.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -50,7 +51,7 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST_CASE("interrupted at any moment, a render refuses or has the whole flare") {
-  constexpr int kMoments = 10;
+  constexpr int kMoments = kSanitized ? 5 : 10;
   for (const Case& c : cases()) {
     for_each_method([&](const Bounds& bounds) {
       if (bounds.method != render_methods().front() && c.is_of_the_driver) return;

@@ -36,12 +36,12 @@ void check_all(const LensState& lens, Vec2 uv, int width = 72) {
 
 }  // namespace
 
-TEST_CASE("a lens with aspheres as in the reference, and unlike its spheres") {
+TEST_CASE("a lens with aspheres as in the reference, and unlike its spheres [slow]") {
   check_all(changed_tessar({.conic = -2.0, .powers = {0, 0, 0, 2e-5, 0, -1e-8}}, {.powers = {0, 0, 1e-5, 1e-5}}),
             {0.66, 0.37});
 }
 
-TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the reference") {
+TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the reference [slow]") {
   const double c = find_lens("tessar")->surfaces.front().curvature_per_mm;
   check_all(
       changed_tessar({.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.6 * c, .rotation_rad = 0.4},
@@ -49,7 +49,7 @@ TEST_CASE("a lens with a toroid and a biconic, turned by odd angles, as in the r
       {0.66, 0.37});
 }
 
-TEST_CASE("rims that are an ellipse and a turned rectangle, as in the reference, and unlike circles") {
+TEST_CASE("rims that are an ellipse and a turned rectangle, as in the reference, and unlike circles [slow]") {
   auto tessar = find_lens("tessar");
   REQUIRE(tessar.has_value());
   const double front_mm = tessar->surfaces.front().semi_diameter_mm, rear_mm = tessar->surfaces.back().semi_diameter_mm;
@@ -61,7 +61,8 @@ TEST_CASE("rims that are an ellipse and a turned rectangle, as in the reference,
 }
 
 TEST_CASE(
-    "obscurations on the front, askew on glass and before the stop, as in the reference, and unlike open surfaces") {
+    "obscurations on the front, askew on glass and before the stop, as in the reference, and unlike open surfaces "
+    "[slow]") {
   auto tessar = find_lens("tessar");
   REQUIRE(tessar.has_value());
   const double front_mm = tessar->surfaces.front().semi_diameter_mm, rear_mm = tessar->surfaces.back().semi_diameter_mm;

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <half.h>
 
+#include "support/sanitized.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -176,7 +177,7 @@ TEST_CASE("a cancelled frame leaves the renderer as it was") {
 
 TEST_CASE("cancelled at any moment, a renderer keeps nothing that is incomplete") {
   using Clock = std::chrono::steady_clock;
-  constexpr int kMoments = 12;
+  constexpr int kMoments = test::kSanitized ? 4 : 12;
   const LensState dirty = bundled("heliar", {.f_number = 16.0, .iris = {.blades = 6}, .dirt = {.dust_per_cm2 = 30.0}});
   for (const RingingMode mode : {RingingMode::Fresnel, RingingMode::Hullin}) {
     CAPTURE(static_cast<int>(mode));

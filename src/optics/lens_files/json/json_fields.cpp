@@ -2,7 +2,6 @@
 #include "optics/lens_files/json/json_fields.h"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,8 +10,6 @@
 
 namespace contrejour::inline internal {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string below(const std::string& path, std::string_view key) {
   return fmt::format("{}{}{}", path, path.empty() ? "" : ".", shortened(key));

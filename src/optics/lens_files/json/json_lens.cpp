@@ -13,7 +13,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr JsonLensFormat kFormats[] = {
+constexpr JsonLensFormat kJsonFormats[] = {
     {"ray-optics", is_roa, read_roa},
     {"Optiland", is_optiland, read_optiland},
     {"Realflare", is_realflare, read_realflare},
@@ -64,7 +64,7 @@ Result<Prescription> read_json_lens(const LensText& in) {
   if (!tree) return tl::unexpected(tree.error());
   JsonErrors errors{in.file, {}};
   const JsonField root(*tree, errors);
-  for (const JsonLensFormat& format : kFormats) {
+  for (const JsonLensFormat& format : kJsonFormats) {
     if (!format.is(root)) continue;
     if (!in.key.empty() && !format.many)
       return failure(ErrorCode::InvalidArgument,
@@ -72,7 +72,7 @@ Result<Prescription> read_json_lens(const LensText& in) {
     return format.read(root, in);
   }
   std::string names;
-  for (const JsonLensFormat& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  for (const JsonLensFormat& format : kJsonFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
   return failure(ErrorCode::Parse,
                  fmt::format("JSON, but no lens of a program that is known; its keys are {}; lenses of {} are read "
                              "(docs/formats)",

@@ -28,9 +28,9 @@ std::string list_text(const std::vector<double>& values) {
   return out;
 }
 
-class Writer {
+class SeqWriter {
  public:
-  explicit Writer(const WritableDesign& rows)
+  explicit SeqWriter(const WritableDesign& rows)
       : design_(rows), lens_(rows.lens), written_{"", common_losses(rows.lens)} {}
 
   Result<WrittenLens> write() {
@@ -258,12 +258,12 @@ class Writer {
 
 }  // namespace
 
-Result<WrittenLens> write_lens_seq(const Prescription& lens) { return Writer(WritableDesign{lens}).write(); }
+Result<WrittenLens> write_lens_seq(const Prescription& lens) { return SeqWriter(WritableDesign{lens}).write(); }
 
 Result<WrittenLens> write_ghost_seq(const LensState& lens, const Ghost& ghost) {
   const auto rows = ghost_rows(lens, ghost);
   if (!rows) return tl::unexpected(rows.error());
-  return Writer(*rows).write();
+  return SeqWriter(*rows).write();
 }
 
 }  // namespace contrejour

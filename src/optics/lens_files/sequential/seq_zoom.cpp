@@ -16,7 +16,7 @@ namespace contrejour::inline internal {
 namespace {
 
 // Names, variables, weights, vignetting factors.
-bool changes_nothing(std::string_view name) {
+bool command_changes_nothing(std::string_view name) {
   static const std::set<std::string_view> kNames = {"TIT", "THC", "CCY", "WTF", "WTW", "WTX", "WTY", "VUX", "VLX",
                                                     "VUY", "VLY", "OFF", "CUM", "THM", "WTA", "CWT", "KC",  "AC",
                                                     "BC",  "CC",  "DC",  "PIM", "POS", "LAB", "INI"};
@@ -24,7 +24,7 @@ bool changes_nothing(std::string_view name) {
 }
 
 // Commands whose values our zoom shares between all positions.
-bool is_said_once(std::string_view name) {
+bool command_is_said_once(std::string_view name) {
   static const std::set<std::string_view> kNames = {"EPD", "FNO", "NA",  "NAO", "WL",  "REF", "XAN",
                                                     "YAN", "XOB", "YOB", "XIM", "YIM", "XRI", "YRI",
                                                     "CIR", "TEM", "PRE", "REX", "REY", "ELX", "ELY"};
@@ -55,7 +55,7 @@ std::optional<std::string> SeqZoom::add(const SeqCommand& command) {
     return std::nullopt;
   }
   Row row{command.line, capitals(command.word(0)).substr(0, 3), {}};
-  if (changes_nothing(row.name)) return std::nullopt;
+  if (command_changes_nothing(row.name)) return std::nullopt;
   const SeqSurfaceName at = seq_surface_name(command.word(1));
   const std::string_view second = command.word(1);
   const bool about =
@@ -86,7 +86,7 @@ void SeqZoom::add_one(const SeqCommand& command, std::size_t word) {
     const auto k = static_cast<std::size_t>(position);
     if (row.values.size() < k) row.values.resize(k, std::nan(""));
     row.values[k - 1] = *value;
-  } else if (position > 1.0 && !changes_nothing(command.name) && others_.size() < 1000) {
+  } else if (position > 1.0 && !command_changes_nothing(command.name) && others_.size() < 1000) {
     others_.push_back({command.line, command.name, {0.0, 1.0}});
   }
 }
@@ -97,7 +97,7 @@ std::vector<DesignPosition> SeqZoom::positions(const SequentialDesign& design,
   std::set<std::string> once;
   for (const Row& row : others_) {
     if (!differs(row.values)) continue;
-    if (!is_said_once(row.name)) {
+    if (!command_is_said_once(row.name)) {
       warnings.push_back(
           fmt::format("the {} positions differ in {} (line {}), not in thicknesses alone; position 1 is "
                       "read",

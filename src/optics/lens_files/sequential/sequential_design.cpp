@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNearFocus = 0.05;  // of the focal length: an image surface nearer to the focus is kept as defocused
 constexpr double kInFocus = 1e-6;  // of the focal length: rounding of printed distances
-constexpr double kSameFocalLength = 1e-6;  // relative: zoom positions nearer than this are merged
+constexpr double kSameZoomPosition = 1e-6;  // relative: zoom positions nearer than this are merged
 constexpr double kNearNominal = 0.2;  // relative: an engraved focal length and the real one
 constexpr double kDefaultDiagonal_mm = 43.2666;  // 36 x 24
 
@@ -137,7 +137,7 @@ class Builder {
       lens_.f_number = std::min(lens_.f_number, light->f_number);  // 0 if the stop's opening determines it
     }
     std::stable_sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.focal_mm < b.focal_mm; });
-    const auto same = [](auto& a, auto& b) { return std::abs(b.focal_mm / a.focal_mm - 1.0) < kSameFocalLength; };
+    const auto same = [](auto& a, auto& b) { return std::abs(b.focal_mm / a.focal_mm - 1.0) < kSameZoomPosition; };
     sorted.erase(std::unique(sorted.begin(), sorted.end(), same), sorted.end());
     set_gaps(sorted.front().index);
     if (sorted.size() < 2) return {};

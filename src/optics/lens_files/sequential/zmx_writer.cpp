@@ -32,9 +32,9 @@ Powers powers_of(const SurfaceShape& shape) {
   return out;
 }
 
-class Writer {
+class ZmxWriter {
  public:
-  explicit Writer(const WritableDesign& rows)
+  explicit ZmxWriter(const WritableDesign& rows)
       : design_(rows), lens_(rows.lens), written_{"", common_losses(rows.lens)} {}
 
   Result<WrittenLens> write() {
@@ -297,12 +297,12 @@ class Writer {
 
 }  // namespace
 
-Result<WrittenLens> write_lens_zmx(const Prescription& lens) { return Writer(WritableDesign{lens}).write(); }
+Result<WrittenLens> write_lens_zmx(const Prescription& lens) { return ZmxWriter(WritableDesign{lens}).write(); }
 
 Result<WrittenLens> write_ghost_zmx(const LensState& lens, const Ghost& ghost) {
   const auto rows = ghost_rows(lens, ghost);
   if (!rows) return tl::unexpected(rows.error());
-  return Writer(*rows).write();
+  return ZmxWriter(*rows).write();
 }
 
 }  // namespace contrejour

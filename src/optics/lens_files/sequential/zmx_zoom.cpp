@@ -15,14 +15,14 @@ namespace contrejour::inline internal {
 namespace {
 
 // Operands without influence on rays: names, weights, vignetting factors, coatings.
-bool changes_nothing(std::string_view name) {
+bool operand_changes_nothing(std::string_view name) {
   static const std::set<std::string_view> kNames = {"MOFF", "LTTL", "CWGT", "FVDX", "FVDY", "FVCX", "FVCY", "FVAN",
                                                     "FLWT", "WLWT", "COTN", "SATP", "TELE", "RAIM", "NOTE", "BLNK"};
   return kNames.contains(name);
 }
 
 // Operands whose values our zoom shares between all positions.
-bool is_said_once(std::string_view name) {
+bool operand_is_said_once(std::string_view name) {
   static const std::set<std::string_view> kNames = {"APER", "XFIE", "YFIE", "FLTP", "WAVE", "PRWV",
                                                     "SDIA", "CSP1", "CSP2", "TEMP", "PRES"};
   return kNames.contains(name);
@@ -73,8 +73,8 @@ std::vector<DesignPosition> zmx_positions(const ZmxConfigurations& configuration
   if (configurations.count < 2 || moving.empty()) return {};
   std::set<std::string_view> once;
   for (const ZmxOperand* operand : moving) {
-    if (operand->name == "THIC" || changes_nothing(operand->name)) continue;
-    if (!is_said_once(operand->name)) {
+    if (operand->name == "THIC" || operand_changes_nothing(operand->name)) continue;
+    if (!operand_is_said_once(operand->name)) {
       warnings.push_back(
           fmt::format("the {} configurations differ in {} (line {}), not in thicknesses alone; "
                       "configuration {} is read",

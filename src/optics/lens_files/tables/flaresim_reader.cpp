@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::string_view kFlareSimSpace = " \t\r\v\f";
 constexpr double kAirIndex = 1.0001;  // FlareSim: up to this index it is air, and a V_d below 0.1 means no dispersion
-constexpr double kSameIndex = 1e-3;
+constexpr double kRoundedIndex = 1e-3;
 // Its files have no aspheres: the sphere in place of a strong asphere may end before its rim.
 constexpr double kMinRimFractionWithoutAspheres = 0.3;
 
@@ -146,7 +146,7 @@ class FlareSimReader {
     surface.semi_diameter_mm = numbers[3];
     surface.curvature_per_mm = curvature_of_radius(*radius_mm);
     const bool odd_stop = surface.kind == SurfaceKind::Stop && numbers[1] > kAirIndex &&
-                          std::abs(numbers[1] - refractive_index(medium_, kLineD_nm)) > kSameIndex;
+                          std::abs(numbers[1] - refractive_index(medium_, kLineD_nm)) > kRoundedIndex;
     if (odd_stop)
       return fail(line,
                   "the stop has another index than the medium in front of it; give that surface a row of its own");

@@ -2,7 +2,6 @@
 // Optical Bench files of photonstophotos.net (docs/formats/optical-bench.md): sections in brackets, cells between tabs.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -23,7 +22,6 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxCells = 64, kMaxRows = 2000;
 
 struct Row {
