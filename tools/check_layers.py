@@ -141,6 +141,7 @@ PUBLIC = {
     "expert/lens_section.h": "drawing",
     "expert/surface_shape.h": "surface",
     "expert/trace.h": "trace",
+    "expert/trace_rays.h": "trace",
     "expert/vec.h": "base",
     "expert/write_lens.h": "lens_files",
     "preset.h": "settings",

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _native
 from ._lenses import AnyLens, configured
+from ._native import CancelFlag
 from ._settings import values_of
 
 Picture = np.ndarray  # (height, width, channels), linear
@@ -62,6 +63,7 @@ def apply(
     *,
     out: Optional[Picture] = None,
     progress: Optional[Callable[[float], Any]] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> AppliedFlare:
@@ -69,10 +71,12 @@ def apply(
 
     picture: linear, white at 1, of shape (height, width, 3 or more); further channels are kept.
     out: receives the result; may be the picture itself. Without it, a new float32 array does.
-    lens, progress, preset, parameters: as of render(); also gain, stops, threshold, light, ...
+    lens, progress, cancel, preset, parameters: as of render(); also gain, stops, threshold, light, ...
     """
     state = configured(lens, preset, parameters)
-    rgb, flare, lights, warnings, seen = _native.apply(picture, state._native, state._measured, state._values, progress)
+    rgb, flare, lights, warnings, seen = _native.apply(
+        picture, state._native, state._measured, state._values, progress, cancel
+    )
     if out is None:
         out = np.array(picture, dtype=np.float32) if picture.shape[2] > 3 else rgb
     if out is not rgb:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _native
 from ._lenses import AnyLens, LensState, configured
+from ._native import CancelFlag
 from ._pictures import Picture, png_of
 
 Progress = Callable[[float], Any]
@@ -113,6 +114,7 @@ class Renderer:
         *,
         out: Optional[np.ndarray] = None,
         progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
         preset: Optional[str] = None,
         **parameters: Any,
     ) -> Flare:
@@ -122,7 +124,7 @@ class Renderer:
             parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
         state = configured(self.lens, preset, parameters)
         _set_lens(self._native, state)
-        return Flare(*self._native.render(state._values, objects, out, progress))
+        return Flare(*self._native.render(state._values, objects, out, progress, cancel))
 
     def render_layers(
         self,
@@ -132,20 +134,30 @@ class Renderer:
         count: int = 10,
         min_percent: float = 0.0,
         progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
         **parameters: Any,
     ) -> LayeredFlare:
         """One frame in layers. See render_layers()."""
         objects = divided(lights, parameters)
         state = configured(self.lens, None, parameters)
         _set_lens(self._native, state)
-        return LayeredFlare(*self._native.render_layers(state._values, objects, by, count, min_percent, progress))
+        return LayeredFlare(
+            *self._native.render_layers(state._values, objects, by, count, min_percent, progress, cancel)
+        )
 
-    def starburst(self, lights: AnyLights = None, *, progress: Optional[Progress] = None, **parameters: Any) -> Picture:
+    def starburst(
+        self,
+        lights: AnyLights = None,
+        *,
+        progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
+        **parameters: Any,
+    ) -> Picture:
         """The lights' own images alone. See starburst()."""
         objects = divided(lights, parameters)
         state = configured(self.lens, None, parameters)
         _set_lens(self._native, state)
-        return self._native.starburst(state._values, objects, progress)
+        return self._native.starburst(state._values, objects, progress, cancel)
 
 
 def render(
@@ -154,6 +166,7 @@ def render(
     *,
     out: Optional[np.ndarray] = None,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> Flare:
@@ -166,6 +179,7 @@ def render(
         of these; without any, one light at u, v = 0.70, 0.33.
     out: a float32 or float16 array of shape (height, width, 3 or more), of any strides, to render into.
     progress: called with rising numbers from 0 to 1, from any thread; what it raises ends the call.
+    cancel: ends the call, which then raises CancelledError, when another thread sets the flag.
     preset: a bundled preset or a file; parameters override it.
     parameters: any of parameters(), by name: width and height (px), f_number, focus, blades, method, wavelengths, ...
 
@@ -177,7 +191,7 @@ def render(
     state = configured(lens, preset, parameters)
     renderer = _native.Renderer()
     _set_lens(renderer, state)
-    return Flare(*renderer.render(state._values, objects, out, progress))
+    return Flare(*renderer.render(state._values, objects, out, progress, cancel))
 
 
 def render_layers(
@@ -188,6 +202,7 @@ def render_layers(
     count: int = 10,
     min_percent: float = 0.0,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> LayeredFlare:
@@ -196,10 +211,12 @@ def render_layers(
     by: "light", "ghost", "part" or "surface".
     count, min_percent: by ghost, how many have a layer of their own, the brightest, and the percentage of the flux that
         such a ghost has at least; the others are in the layer "rest".
-    lens, lights, progress, preset, parameters: as of render().
+    lens, lights, progress, cancel, preset, parameters: as of render().
     """
     renderer = Renderer(lens, preset=preset)
-    return renderer.render_layers(lights, by=by, count=count, min_percent=min_percent, progress=progress, **parameters)
+    return renderer.render_layers(
+        lights, by=by, count=count, min_percent=min_percent, progress=progress, cancel=cancel, **parameters
+    )
 
 
 def starburst(
@@ -207,9 +224,10 @@ def starburst(
     lights: AnyLights = None,
     *,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> Picture:
     """The lights' own images, spread by diffraction at the iris, without ghosts: float32 (height, width, 3). Each sums
     to its light's value over the whole plane. lens, lights and parameters: as of render()."""
-    return Renderer(lens, preset=preset).starburst(lights, progress=progress, **parameters)
+    return Renderer(lens, preset=preset).starburst(lights, progress=progress, cancel=cancel, **parameters)

@@ -42,10 +42,10 @@ Picture picture_of_array(const PixelArray& pixels) {
 
 // By a measured flare, if there is one, or else by the lens.
 py::tuple apply(const PixelArray& pixels, const LensState& lens, const std::shared_ptr<MeasuredFlare>& measured,
-                const params::Values& values, const py::object& progress) {
+                const params::Values& values, const py::object& progress, CancelFlag* cancel) {
   Picture picture = picture_of_array(pixels);
   const FlareSource source = measured ? FlareSource(*measured) : FlareSource(lens);
-  LongCall call(values.integer("threads"), progress);
+  LongCall call(values.integer("threads"), {progress, cancel});
   AppliedFlare applied =
       call.run([&](const Context& context) { return apply_flare(picture, source, values, context); });
   const FlareVisibility& seen = applied.flare.visibility;
@@ -86,7 +86,7 @@ PreviewSettings preview_of(const Image& image, std::optional<double> exposure_st
 
 void add_pictures(py::module_& module) {
   module.def("apply", apply, py::arg("picture"), py::arg("lens"), py::arg("measured"), py::arg("values"),
-             py::arg("progress"));
+             py::arg("progress"), py::arg("cancel"));
   module.def("detect_lights", detect, py::arg("picture"), py::arg("values"));
   module.def("compare", compare_pictures, py::arg("a"), py::arg("b"));
   module.def(
