@@ -153,6 +153,7 @@ PUBLIC = {
     "expert/session.h": "settings",
     "expert/preview_exposure.h": "settings",
     "expert/requests.h": "requests",
+    "expert/picture_window.h": "requests",
     "expert/exposure.h": "requests",
     "expert/source_renderer.h": "requests",
     "apply.h": "compositing",

@@ -7,6 +7,7 @@ version: str
 
 _Light = tuple[Any, ...]
 _Progress = Optional[Callable[[float], Any]]
+_Window = tuple[int, int, int, int]
 _Vec3 = tuple[float, float, float]
 
 class CancelFlag:
@@ -121,6 +122,7 @@ class Renderer:
         self,
         values: Values,
         lights: Sequence[_Light],
+        window: Optional[_Window],
         out: Optional[np.ndarray],
         progress: _Progress,
         cancel: Optional[CancelFlag],
@@ -175,6 +177,7 @@ def apply(
     lens: LensState,
     measured: Optional[MeasuredFlare],
     values: Values,
+    window: Optional[_Window],
     progress: _Progress,
     cancel: Optional[CancelFlag],
 ) -> tuple[np.ndarray, np.ndarray, list[dict[str, Any]], list[str], tuple[Any, ...]]: ...

@@ -11,7 +11,7 @@ import numpy as np
 from . import _native
 from ._lenses import AnyLens, LensState, configured
 from ._native import CancelFlag
-from ._pictures import Picture, png_of
+from ._pictures import Picture, Window, png_of
 
 Progress = Callable[[float], Any]
 
@@ -95,6 +95,13 @@ def _set_lens(renderer: _native.Renderer, state: LensState) -> None:
         renderer.set_lens(state._native)
 
 
+def _sized_by(out: Optional[np.ndarray], window: Optional[Window], parameters: dict[str, Any]) -> dict[str, Any]:
+    """The parameters, with the size of an array that receives the whole frame."""
+    if out is None or window is not None:
+        return parameters
+    return {**parameters, "height": out.shape[0], "width": out.shape[1]}
+
+
 class Renderer:
     """A renderer that lives from frame to frame: it keeps what frames have in common (reflectances, patterns, memory),
     and its pictures are those of render(), bit for bit. One thread at a time uses it.
@@ -112,6 +119,7 @@ class Renderer:
         self,
         lights: AnyLights = None,
         *,
+        window: Optional[Window] = None,
         out: Optional[np.ndarray] = None,
         progress: Optional[Progress] = None,
         cancel: Optional[CancelFlag] = None,
@@ -120,11 +128,10 @@ class Renderer:
     ) -> Flare:
         """One frame; parameters count for this frame alone. See render()."""
         objects = divided(lights, parameters)
-        if out is not None:
-            parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
+        parameters = _sized_by(out, window, parameters)
         state = configured(self.lens, preset, parameters)
         _set_lens(self._native, state)
-        return Flare(*self._native.render(state._values, objects, out, progress, cancel))
+        return Flare(*self._native.render(state._values, objects, window, out, progress, cancel))
 
     def render_layers(
         self,
@@ -164,6 +171,7 @@ def render(
     lens: Optional[AnyLens] = None,
     lights: AnyLights = None,
     *,
+    window: Optional[Window] = None,
     out: Optional[np.ndarray] = None,
     progress: Optional[Progress] = None,
     cancel: Optional[CancelFlag] = None,
@@ -177,6 +185,8 @@ def render(
     lens: a bundled name, a file, a Prescription or a LensState; without one, that of the preset.
     lights: Light objects, texts as of the parameter "light" ("12,8:1000:3200K"), tuples of degrees (12, 8), or a list
         of these; without any, one light at u, v = 0.70, 0.33.
+    window: (x, y, width, height) in pixels from the frame's top left corner: only these are rendered, and the image has
+        that size. They equal the whole frame's to the method's error, and C++'s window bit for bit.
     out: a float32 or float16 array of shape (height, width, 3 or more), of any strides, to render into.
     progress: called with rising numbers from 0 to 1, from any thread; what it raises ends the call.
     cancel: ends the call, which then raises CancelledError, when another thread sets the flag.
@@ -186,12 +196,11 @@ def render(
     Ctrl-C ends the call. Other Python threads run while it computes.
     """
     objects = divided(lights, parameters)
-    if out is not None:
-        parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
+    parameters = _sized_by(out, window, parameters)
     state = configured(lens, preset, parameters)
     renderer = _native.Renderer()
     _set_lens(renderer, state)
-    return Flare(*renderer.render(state._values, objects, out, progress, cancel))
+    return Flare(*renderer.render(state._values, objects, window, out, progress, cancel))
 
 
 def render_layers(

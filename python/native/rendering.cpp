@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/picture_window.h"
 #include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
@@ -56,9 +58,11 @@ class LensRenderer {
   }
 
   // Into `out`, or into a new array. Returns the array and the statistics.
-  py::tuple render(const params::Values& values, const std::vector<LightFields>& lights, std::optional<py::array> out,
-                   const py::object& progress, CancelFlag* cancel) {
-    const PictureRequest request = prepare(values, lights);
+  py::tuple render(const params::Values& values, const std::vector<LightFields>& lights,
+                   const std::optional<WindowFields>& window, std::optional<py::array> out, const py::object& progress,
+                   CancelFlag* cancel) {
+    PictureRequest request = prepare(values, lights);
+    if (window) request = value_of(window_of(std::move(request), window_of_fields(*window), values, geometry()));
     LongCall call(values.integer("threads"), {progress, cancel});
     if (!out) {
       Flare flare = call.run([&](const Context& context) { return render_picture(request, renderer_, context); });
@@ -108,6 +112,11 @@ class LensRenderer {
     return request;
   }
 
+  [[nodiscard]] LensState geometry() const {
+    const auto* flare = std::get_if<MeasuredFlare>(&renderer_);
+    return flare != nullptr ? ideal_lens_of(*flare) : *lens_;
+  }
+
   SourceRenderer renderer_;
   std::shared_ptr<LensState> lens_;
 };
@@ -121,8 +130,8 @@ void add_rendering(py::module_& module) {
       .def("set_flare", &LensRenderer::set_flare, py::arg("flare"))
       .def("render_layers", &LensRenderer::render_layers, py::arg("values"), py::arg("lights"), py::arg("by"),
            py::arg("count"), py::arg("min_percent"), py::arg("progress"), py::arg("cancel"))
-      .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("out"), py::arg("progress"),
-           py::arg("cancel"))
+      .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("window"), py::arg("out"),
+           py::arg("progress"), py::arg("cancel"))
       .def("starburst", &LensRenderer::starburst, py::arg("values"), py::arg("lights"), py::arg("progress"),
            py::arg("cancel"));
 }

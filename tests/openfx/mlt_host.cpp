@@ -185,7 +185,9 @@ MltHost::MltHost() {
     throw std::runtime_error("MLT takes filters only");
 }
 
-MltHost::~MltHost() { plugin_->main_entry(action::kUnload, nullptr, nullptr, nullptr); }
+MltHost::~MltHost() {
+  for (int k = 0; k < loads_; ++k) plugin_->main_entry(action::kUnload, nullptr, nullptr, nullptr);
+}
 
 void MltHost::call(const char* action, EffectStruct& effect, PropertySetStruct* in, PropertySetStruct* out) const {
   const Status answer = plugin_->main_entry(action, &effect, in, out);
@@ -198,6 +200,7 @@ std::unique_ptr<EffectStruct> MltHost::new_effect() const {
   effect->properties.put<std::string>(name::kContext, {context::kFilter});
   plugin_->set_host(const_cast<HostTable*>(&table_));
   call(action::kLoad, *effect);
+  ++loads_;
   call(action::kDescribe, *effect);
   plugin_->main_entry(action::kDescribeInContext, effect.get(), const_cast<PropertySetStruct*>(&properties_), nullptr);
   for (const auto& param : effect->params.params) {
@@ -215,7 +218,8 @@ std::unique_ptr<EffectStruct> MltHost::new_effect() const {
 
 std::map<std::string, MltHost::Offered> MltHost::offered() const {
   std::map<std::string, Offered> all;
-  for (const auto& param : new_effect()->params.params)
+  const auto effect = new_effect();
+  for (const auto& param : effect->params.params)
     if (param->type != type::kPushButton) all[param->name] = offered_of(*param);
   return all;
 }

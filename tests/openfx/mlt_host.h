@@ -14,6 +14,7 @@
 // - no identity, no changes, no time line, no keys, never an abort.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -42,7 +43,7 @@ class MltHost {
  public:
   // Loads the plug-in and asks whether it is a filter that MLT can use. Errors: std::runtime_error if it is not.
   MltHost();
-  // Unloads it once, however often it was loaded.
+  // MLT unloads it once, however often it was loaded. This host makes room for another in the same process.
   ~MltHost();
   MltHost(const MltHost&) = delete;
   MltHost& operator=(const MltHost&) = delete;
@@ -73,6 +74,7 @@ class MltHost {
   PropertySetStruct properties_;
   HostTable table_{};
   const PluginTable* plugin_ = nullptr;
+  mutable std::atomic<int> loads_ = 0;
 };
 
 }  // namespace contrejour::openfx

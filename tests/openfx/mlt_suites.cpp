@@ -141,23 +141,29 @@ Status give(ParamHandle param, va_list arguments) {
   return status::kOk;
 }
 
+// The value was set for the frame that is rendered.
+Status get_value_at_any_time(ParamHandle param, Time time, ...) {
+  if (param == nullptr) return status::kErrBadHandle;
+  va_list arguments;
+  va_start(arguments, time);
+  const Status given = give(param, arguments);
+  va_end(arguments);
+  return given;
+}
+
+Status no_derivative(ParamHandle, Time, ...) { return status::kErrUnsupported; }
+Status no_integral(ParamHandle, Time, Time, ...) { return status::kErrUnsupported; }
+
 const ParameterSuite& parameters() {
   static const ParameterSuite suite = [] {
     ParameterSuite functions = parameter_suite();
-    functions.get_value_at_time = [](ParamHandle param, Time time, ...) {
-      if (param == nullptr) return status::kErrBadHandle;
-      va_list arguments;
-      va_start(arguments, time);
-      const Status given = give(param, arguments);
-      va_end(arguments);
-      return given;
-    };
+    functions.get_value_at_time = &get_value_at_any_time;
     functions.get_num_keys = [](ParamHandle, unsigned int* count) {
       *count = 0;
       return status::kOk;
     };
-    functions.get_derivative = [](ParamHandle, Time, ...) { return status::kErrUnsupported; };
-    functions.get_integral = [](ParamHandle, Time, Time, ...) { return status::kErrUnsupported; };
+    functions.get_derivative = &no_derivative;
+    functions.get_integral = &no_integral;
     return functions;
   }();
   return suite;
