@@ -43,6 +43,14 @@ const char* host_type_of(const ParamSpec& spec) {
   return type::kString;
 }
 
+// Positions are plain numbers for a host, which then leaves their coordinates alone. MLT passes on the second number of
+// a pair only if the pair is a point, and passes normalised ones on as they are.
+void set_position(const Host& host, const Properties& properties) {
+  properties.set(name::kDoubleType, host.is_mlt() ? value::kDoublePoint : value::kDoublePlain);
+  if (host.is_mlt()) properties.set(name::kDefaultCoordinateSystem, value::kNormalised);
+  properties.set(name::kDigits, 4);
+}
+
 // Both ranges are given for each component: some hosts clamp to -1..1 where one is missing.
 template <class Number>
 void set_range(const Properties& properties, const ParamSpec& spec) {
@@ -55,17 +63,14 @@ void set_range(const Properties& properties, const ParamSpec& spec) {
   }
 }
 
-void set_values(const Properties& properties, const ParamSpec& spec) {
+void set_values(const Host& host, const Properties& properties, const ParamSpec& spec) {
   switch (spec.type) {
     case ParamType::Real:
       // The angles of the table are in degrees, as those of the host: plain numbers, which no host converts.
       properties.set(name::kDoubleType, value::kDoublePlain);
       properties.set(name::kDigits, 4);
       return set_range<double>(properties, spec);
-    case ParamType::Position:
-      properties.set(name::kDoubleType, value::kDoublePlain);
-      properties.set(name::kDigits, 4);
-      return set_range<double>(properties, spec);
+    case ParamType::Position: set_position(host, properties); return set_range<double>(properties, spec);
     case ParamType::Colour: return set_range<double>(properties, spec);
     case ParamType::Integer: return set_range<int>(properties, spec);
     case ParamType::Boolean: return properties.set(name::kDefault, spec.fallback[0] != 0.0 ? 1 : 0);
@@ -91,7 +96,7 @@ void define_parameter(const Host& host, ParamSetHandle parameters, const ParamSp
   properties.set(name::kScriptName, spec.name);
   if (!spec.hint.empty()) properties.set(name::kHint, spec.hint);
   if (!spec.group.empty()) properties.set(name::kParent, spec.group);
-  set_values(properties, spec);
+  set_values(host, properties, spec);
 }
 
 }  // namespace
@@ -104,8 +109,10 @@ Status describe(const Host& host, EffectHandle effect, const OverlayEntries& ove
   properties.set(name::kGrouping, "Light");
   properties.set(name::kPluginDescription, kDescription);
   set_all(properties, name::kSupportedContexts, {context::kFilter, context::kGeneral, context::kGenerator});
-  // Hosts convert integer pixels themselves. Offered bytes, some would take these first, and a flare would show bands.
-  set_all(properties, name::kSupportedPixelDepths, {value::kFloat, value::kHalf});
+  // Hosts convert integer pixels themselves. Offered bytes, some would take these first, and a flare would show bands;
+  // MLT prefers halves to floats and cuts its 16-bit integers down to them.
+  set_all(properties, name::kSupportedPixelDepths, {value::kFloat});
+  if (!host.is_mlt()) properties.set(name::kSupportedPixelDepths, value::kHalf, 1);
   properties.set(name::kRenderThreadSafety, value::kFullySafe);
   properties.set(name::kHostFrameThreading, 0);  // the library's own threads share a frame
   properties.set(name::kSupportsTiles, 0);  // any light's flare may reach any pixel

@@ -53,6 +53,9 @@ struct Host {
   // Empty if the host lacks one of the three suites without which nothing works.
   [[nodiscard]] static std::optional<Host> create(const HostTable* table);
 
+  // MLT (read in its version 7.41, src/modules/openfx) differs from the standard in ways that pictures depend on.
+  [[nodiscard]] bool is_mlt() const { return name == "MLT"; }
+
   [[nodiscard]] Properties of(PropertySetHandle set) const { return {properties, set}; }
   [[nodiscard]] Properties of(EffectHandle effect) const;
   // The number of threads that the host grants; 0 if it does not say.

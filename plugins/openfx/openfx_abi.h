@@ -247,6 +247,7 @@ inline constexpr const char *kDefault = "OfxParamPropDefault", *kMin = "OfxParam
                             *kStringMode = "OfxParamPropStringMode",
                             *kStringFilePathExists = "OfxParamPropStringFilePathExists",
                             *kGroupOpen = "OfxParamPropGroupOpen", *kDoubleType = "OfxParamPropDoubleType",
+                            *kDefaultCoordinateSystem = "OfxParamPropDefaultCoordinateSystem",
                             *kDigits = "OfxParamPropDigits", *kAnimates = "OfxParamPropAnimates";
 }  // namespace name
 
@@ -257,7 +258,9 @@ inline constexpr const char *kFullySafe = "OfxImageEffectRenderFullySafe", *kFlo
                             *kRgb = "OfxImageComponentRGB", *kFieldDoubled = "OfxImageFieldDoubled",
                             *kUserEdited = "OfxChangeUserEdited", *kMessageWarning = "OfxMessageWarning",
                             *kMessageLog = "OfxMessageLog", *kDoublePlain = "OfxParamDoubleTypePlain",
-                            *kSingleLine = "OfxParamStringIsSingleLine", *kFilePath = "OfxParamStringIsFilePath";
+                            *kDoublePoint = "OfxParamDoubleTypeXYAbsolute",
+                            *kNormalised = "OfxParamCoordinatesNormalised", *kSingleLine = "OfxParamStringIsSingleLine",
+                            *kFilePath = "OfxParamStringIsFilePath";
 }  // namespace value
 
 namespace type {

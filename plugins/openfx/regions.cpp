@@ -64,6 +64,10 @@ RectD output_region(const Instance& instance, Time time, SensorFrame choice) {
   return region;
 }
 
+RectD canonical(const Instance& instance, const RectD& r, const PixelScale& scale) {
+  return instance.host().is_mlt() ? RectD{r.x1 / scale.x, r.y1 / scale.y, r.x2 / scale.x, r.y2 / scale.y} : r;
+}
+
 PixelWindow pixels_of(const RectD& r, const PixelScale& scale) {
   const double across = scale.x / scale.pixel_aspect;
   const int x1 = low(r.x1 * across), x2 = std::max(high(r.x2 * across), x1 + 1);

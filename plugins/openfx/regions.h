@@ -14,6 +14,8 @@ namespace contrejour::openfx {
 struct PixelScale {
   double x = 1.0, y = 1.0;  // the host's render scale
   double pixel_aspect = 1.0;
+
+  [[nodiscard]] PixelScale in_full_resolution() const { return {1.0, 1.0, pixel_aspect}; }
 };
 
 // The region of definition of the source, if it has one with an end.
@@ -27,6 +29,9 @@ struct PixelScale {
 
 // The rectangle in which the effect gives pixels: the sensor's frame and the source.
 [[nodiscard]] RectD output_region(const Instance& instance, Time time, SensorFrame choice);
+
+// A region that the host gave while it renders at a scale, in canonical coordinates. MLT's are of the scaled picture.
+[[nodiscard]] RectD canonical(const Instance& instance, const RectD& region, const PixelScale& scale);
 
 // The pixels that a rectangle touches, rows from the top: y = 0 lies above the host's row -1.
 [[nodiscard]] PixelWindow pixels_of(const RectD& canonical, const PixelScale& scale);

@@ -64,10 +64,11 @@ struct RenderTask {
 
 FlareRequest request_of(const Instance& instance, const Properties& in, const RenderTask& frame, ReadParameters& read) {
   FlareRequest request;
-  const RectD sensor = sensor_frame(instance, frame.time, read.frame);
-  request.region = pixels_of(output_region(instance, frame.time, read.frame), frame.scale);
+  const RectD sensor = canonical(instance, sensor_frame(instance, frame.time, read.frame), frame.scale);
+  const RectD region = canonical(instance, output_region(instance, frame.time, read.frame), frame.scale);
+  request.region = pixels_of(region, frame.scale);
   request.frame = pixels_of(sensor, frame.scale);
-  request.unscaled_frame = pixels_of(sensor, {1.0, 1.0, frame.scale.pixel_aspect});
+  request.unscaled_frame = pixels_of(sensor, frame.scale.in_full_resolution());
   request.pixel_aspect = frame.scale.pixel_aspect;
   request.time = frame.time;
   request.is_draft = read.drafts_while_interacting && is_interactive(in);

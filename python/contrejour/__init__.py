@@ -25,6 +25,7 @@ from ._lenses import (
     read_flare,
     read_lens_toml,
 )
+from ._native import CancelFlag
 from ._native import version as __version__
 from ._optics import (
     Coating,
@@ -57,6 +58,7 @@ from ._settings import Parameter, Preset, bundled_presets, find_preset, paramete
 
 __all__ = [
     "AppliedFlare",
+    "CancelFlag",
     "CancelledError",
     "Coating",
     "Comparison",

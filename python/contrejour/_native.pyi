@@ -7,7 +7,14 @@ version: str
 
 _Light = tuple[Any, ...]
 _Progress = Optional[Callable[[float], Any]]
+_Window = tuple[int, int, int, int]
 _Vec3 = tuple[float, float, float]
+
+class CancelFlag:
+    def __init__(self) -> None: ...
+    def set(self) -> None: ...
+    def clear(self) -> None: ...
+    def is_set(self) -> bool: ...
 
 class Values:
     def __init__(self) -> None: ...
@@ -109,11 +116,20 @@ class Renderer:
         count: int,
         min_percent: float,
         progress: _Progress,
+        cancel: Optional[CancelFlag],
     ) -> tuple[np.ndarray, dict[str, Any], dict[str, np.ndarray]]: ...
     def render(
-        self, values: Values, lights: Sequence[_Light], out: Optional[np.ndarray], progress: _Progress
+        self,
+        values: Values,
+        lights: Sequence[_Light],
+        window: Optional[_Window],
+        out: Optional[np.ndarray],
+        progress: _Progress,
+        cancel: Optional[CancelFlag],
     ) -> tuple[np.ndarray, dict[str, Any]]: ...
-    def starburst(self, values: Values, lights: Sequence[_Light], progress: _Progress) -> np.ndarray: ...
+    def starburst(
+        self, values: Values, lights: Sequence[_Light], progress: _Progress, cancel: Optional[CancelFlag]
+    ) -> np.ndarray: ...
 
 def parameters() -> list[dict[str, Any]]: ...
 def bundled_presets() -> list[str]: ...
@@ -139,10 +155,18 @@ def is_measured_flare(name: str) -> bool: ...
 def read_flare(file: str) -> MeasuredFlare: ...
 def configure_lens(lens: Prescription, values: Values) -> LensState: ...
 def trace(
-    lens: LensState, ghost: Sequence[int], lambda_nm: float, origins_mm: np.ndarray, directions: np.ndarray
+    lens: LensState,
+    ghost: Sequence[int],
+    lambda_nm: float,
+    origins_mm: np.ndarray,
+    directions: np.ndarray,
+    values: Values,
+    out: Optional[tuple[np.ndarray, ...]],
+    progress: _Progress,
+    cancel: Optional[CancelFlag],
 ) -> tuple[np.ndarray, ...]: ...
 def ghosts(
-    lens: LensState, values: Values, light: Optional[_Light], progress: _Progress
+    lens: LensState, values: Values, light: Optional[_Light], progress: _Progress, cancel: Optional[CancelFlag]
 ) -> list[dict[str, Any]]: ...
 def direction_from_angles(azimuth_rad: float, elevation_rad: float) -> _Vec3: ...
 def direction_for_image_point(
@@ -153,7 +177,9 @@ def apply(
     lens: LensState,
     measured: Optional[MeasuredFlare],
     values: Values,
+    window: Optional[_Window],
     progress: _Progress,
+    cancel: Optional[CancelFlag],
 ) -> tuple[np.ndarray, np.ndarray, list[dict[str, Any]], list[str], tuple[Any, ...]]: ...
 def detect_lights(picture: np.ndarray, values: Values) -> tuple[float, list[dict[str, Any]], np.ndarray]: ...
 def compare(a: np.ndarray, b: np.ndarray) -> tuple[Any, ...]: ...

@@ -10,9 +10,11 @@ import numpy as np
 
 from . import _native
 from ._lenses import AnyLens, configured
+from ._native import CancelFlag
 from ._settings import values_of
 
 Picture = np.ndarray  # (height, width, channels), linear
+Window = tuple[int, int, int, int]  # x, y, width and height of some pixels of a picture, from its top left corner
 FileName = Union[str, "os.PathLike[str]"]
 
 
@@ -60,19 +62,27 @@ def apply(
     picture: Picture,
     lens: Optional[AnyLens] = None,
     *,
+    window: Optional[Window] = None,
     out: Optional[Picture] = None,
     progress: Optional[Callable[[float], Any]] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> AppliedFlare:
     """Adds to a photograph the flare of its own lights.
 
     picture: linear, white at 1, of shape (height, width, 3 or more); further channels are kept.
+    window: as of render(): lights are found in the whole picture, and the result is that part of it.
     out: receives the result; may be the picture itself. Without it, a new float32 array does.
-    lens, progress, preset, parameters: as of render(); also gain, stops, threshold, light, ...
+    lens, progress, cancel, preset, parameters: as of render(); also gain, stops, threshold, light, ...
     """
     state = configured(lens, preset, parameters)
-    rgb, flare, lights, warnings, seen = _native.apply(picture, state._native, state._measured, state._values, progress)
+    rgb, flare, lights, warnings, seen = _native.apply(
+        picture, state._native, state._measured, state._values, window, progress, cancel
+    )
+    if window is not None:
+        x, y, width, height = window
+        picture = picture[y : y + height, x : x + width]
     if out is None:
         out = np.array(picture, dtype=np.float32) if picture.shape[2] > 3 else rgb
     if out is not rgb:

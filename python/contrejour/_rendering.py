@@ -10,7 +10,8 @@ import numpy as np
 
 from . import _native
 from ._lenses import AnyLens, LensState, configured
-from ._pictures import Picture, png_of
+from ._native import CancelFlag
+from ._pictures import Picture, Window, png_of
 
 Progress = Callable[[float], Any]
 
@@ -94,6 +95,13 @@ def _set_lens(renderer: _native.Renderer, state: LensState) -> None:
         renderer.set_lens(state._native)
 
 
+def _sized_by(out: Optional[np.ndarray], window: Optional[Window], parameters: dict[str, Any]) -> dict[str, Any]:
+    """The parameters, with the size of an array that receives the whole frame."""
+    if out is None or window is not None:
+        return parameters
+    return {**parameters, "height": out.shape[0], "width": out.shape[1]}
+
+
 class Renderer:
     """A renderer that lives from frame to frame: it keeps what frames have in common (reflectances, patterns, memory),
     and its pictures are those of render(), bit for bit. One thread at a time uses it.
@@ -111,18 +119,19 @@ class Renderer:
         self,
         lights: AnyLights = None,
         *,
+        window: Optional[Window] = None,
         out: Optional[np.ndarray] = None,
         progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
         preset: Optional[str] = None,
         **parameters: Any,
     ) -> Flare:
         """One frame; parameters count for this frame alone. See render()."""
         objects = divided(lights, parameters)
-        if out is not None:
-            parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
+        parameters = _sized_by(out, window, parameters)
         state = configured(self.lens, preset, parameters)
         _set_lens(self._native, state)
-        return Flare(*self._native.render(state._values, objects, out, progress))
+        return Flare(*self._native.render(state._values, objects, window, out, progress, cancel))
 
     def render_layers(
         self,
@@ -132,28 +141,40 @@ class Renderer:
         count: int = 10,
         min_percent: float = 0.0,
         progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
         **parameters: Any,
     ) -> LayeredFlare:
         """One frame in layers. See render_layers()."""
         objects = divided(lights, parameters)
         state = configured(self.lens, None, parameters)
         _set_lens(self._native, state)
-        return LayeredFlare(*self._native.render_layers(state._values, objects, by, count, min_percent, progress))
+        return LayeredFlare(
+            *self._native.render_layers(state._values, objects, by, count, min_percent, progress, cancel)
+        )
 
-    def starburst(self, lights: AnyLights = None, *, progress: Optional[Progress] = None, **parameters: Any) -> Picture:
+    def starburst(
+        self,
+        lights: AnyLights = None,
+        *,
+        progress: Optional[Progress] = None,
+        cancel: Optional[CancelFlag] = None,
+        **parameters: Any,
+    ) -> Picture:
         """The lights' own images alone. See starburst()."""
         objects = divided(lights, parameters)
         state = configured(self.lens, None, parameters)
         _set_lens(self._native, state)
-        return self._native.starburst(state._values, objects, progress)
+        return self._native.starburst(state._values, objects, progress, cancel)
 
 
 def render(
     lens: Optional[AnyLens] = None,
     lights: AnyLights = None,
     *,
+    window: Optional[Window] = None,
     out: Optional[np.ndarray] = None,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> Flare:
@@ -164,20 +185,22 @@ def render(
     lens: a bundled name, a file, a Prescription or a LensState; without one, that of the preset.
     lights: Light objects, texts as of the parameter "light" ("12,8:1000:3200K"), tuples of degrees (12, 8), or a list
         of these; without any, one light at u, v = 0.70, 0.33.
+    window: (x, y, width, height) in pixels from the frame's top left corner: only these are rendered, and the image has
+        that size. They equal the whole frame's to the method's error, and C++'s window bit for bit.
     out: a float32 or float16 array of shape (height, width, 3 or more), of any strides, to render into.
     progress: called with rising numbers from 0 to 1, from any thread; what it raises ends the call.
+    cancel: ends the call, which then raises CancelledError, when another thread sets the flag.
     preset: a bundled preset or a file; parameters override it.
     parameters: any of parameters(), by name: width and height (px), f_number, focus, blades, method, wavelengths, ...
 
     Ctrl-C ends the call. Other Python threads run while it computes.
     """
     objects = divided(lights, parameters)
-    if out is not None:
-        parameters = {**parameters, "height": out.shape[0], "width": out.shape[1]}
+    parameters = _sized_by(out, window, parameters)
     state = configured(lens, preset, parameters)
     renderer = _native.Renderer()
     _set_lens(renderer, state)
-    return Flare(*renderer.render(state._values, objects, out, progress))
+    return Flare(*renderer.render(state._values, objects, window, out, progress, cancel))
 
 
 def render_layers(
@@ -188,6 +211,7 @@ def render_layers(
     count: int = 10,
     min_percent: float = 0.0,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> LayeredFlare:
@@ -196,10 +220,12 @@ def render_layers(
     by: "light", "ghost", "part" or "surface".
     count, min_percent: by ghost, how many have a layer of their own, the brightest, and the percentage of the flux that
         such a ghost has at least; the others are in the layer "rest".
-    lens, lights, progress, preset, parameters: as of render().
+    lens, lights, progress, cancel, preset, parameters: as of render().
     """
     renderer = Renderer(lens, preset=preset)
-    return renderer.render_layers(lights, by=by, count=count, min_percent=min_percent, progress=progress, **parameters)
+    return renderer.render_layers(
+        lights, by=by, count=count, min_percent=min_percent, progress=progress, cancel=cancel, **parameters
+    )
 
 
 def starburst(
@@ -207,9 +233,10 @@ def starburst(
     lights: AnyLights = None,
     *,
     progress: Optional[Progress] = None,
+    cancel: Optional[CancelFlag] = None,
     preset: Optional[str] = None,
     **parameters: Any,
 ) -> Picture:
     """The lights' own images, spread by diffraction at the iris, without ghosts: float32 (height, width, 3). Each sums
     to its light's value over the whole plane. lens, lights and parameters: as of render()."""
-    return Renderer(lens, preset=preset).starburst(lights, progress=progress, **parameters)
+    return Renderer(lens, preset=preset).starburst(lights, progress=progress, cancel=cancel, **parameters)

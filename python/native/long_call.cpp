@@ -41,4 +41,15 @@ InterruptWatch::~InterruptWatch() {
   flag_of_interrupt.store(nullptr);
 }
 
+void add_long_calls(py::module_& module) {
+  py::class_<CancelFlag>(module, "CancelFlag",
+                         "A flag that ends long calls from another thread: render(..., cancel=flag).\n\n"
+                         "Calls that were given the flag raise CancelledError within a moment after set(), and so do\n"
+                         "those that begin before clear(). Several calls may share one.")
+      .def(py::init<>())
+      .def("set", &CancelFlag::set, "Ends the calls.")
+      .def("clear", &CancelFlag::clear, "Lets later calls run.")
+      .def("is_set", &CancelFlag::is_set);
+}
+
 }  // namespace contrejour::python

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A call that takes long: it runs without Python's lock, reports progress to a Python function, and ends when this
-// function raises or when Ctrl-C is pressed.
+// function raises, when Ctrl-C is pressed, or when a flag of the caller's is set.
 #pragma once
 
 #include <atomic>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
@@ -29,19 +30,51 @@ class InterruptWatch {
   bool is_watching_ = false;
 };
 
+// Ends the calls that were given it. Python's lock is held whenever one of its functions is called.
+class CancelFlag {
+ public:
+  void set() {
+    is_set_ = true;
+    for (std::atomic<bool>* const stop : running_) stop->store(true);
+  }
+  void clear() { is_set_ = false; }
+  [[nodiscard]] bool is_set() const { return is_set_; }
+
+  // A call that begins, and one that has ended: `stop` ends it.
+  void add(std::atomic<bool>& stop) {
+    running_.push_back(&stop);
+    if (is_set_) stop.store(true);
+  }
+  void remove(std::atomic<bool>& stop) { std::erase(running_, &stop); }
+
+ private:
+  bool is_set_ = false;
+  std::vector<std::atomic<bool>*> running_;
+};
+
+// What a call's keyword arguments say of it: a function of one number from 0 to 1 or None, and a flag or null.
+struct CallControls {
+  py::object progress;
+  CancelFlag* cancel = nullptr;
+};
+
 class LongCall {
  public:
-  // progress: a function of one number from 0 to 1, or None. Python's lock is held.
-  LongCall(int threads, py::object progress) : progress_(std::move(progress)) {
+  // Python's lock is held.
+  LongCall(int threads, CallControls controls) : controls_(std::move(controls)) {
     context_.threads = threads;
     context_.cancel = &stop_;
-    if (!progress_.is_none()) context_.progress = [this](double done) { report(done); };
+    if (!controls_.progress.is_none()) context_.progress = [this](double done) { report(done); };
+    if (controls_.cancel != nullptr) controls_.cancel->add(stop_);
+  }
+  ~LongCall() {
+    if (controls_.cancel != nullptr) controls_.cancel->remove(stop_);
   }
   LongCall(const LongCall&) = delete;
   LongCall& operator=(const LongCall&) = delete;
 
   // Calls compute(context) without Python's lock: it returns a Result and touches no Python object. Throws its error,
-  // the progress function's exception, or KeyboardInterrupt.
+  // which is Cancelled after the flag was set, the progress function's exception, or KeyboardInterrupt.
   template <class Compute>
   auto run(const Compute& compute) {
     const InterruptWatch watch(stop_);
@@ -60,17 +93,19 @@ class LongCall {
     const py::gil_scoped_acquire locked;
     if (raised_) return;
     try {
-      progress_(done);
+      controls_.progress(done);
     } catch (const py::error_already_set&) {
       raised_ = std::current_exception();
       stop_.store(true);
     }
   }
 
-  py::object progress_;
+  CallControls controls_;
   std::atomic<bool> stop_{false};
   std::exception_ptr raised_;  // by the progress function
   Context context_;
 };
+
+void add_long_calls(py::module_& module);
 
 }  // namespace contrejour::python

@@ -13,6 +13,7 @@
 
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/ghost_figures.h"
+#include "contrejour/image_io.h"
 #include "contrejour/lens.h"
 #include "contrejour/light.h"
 
@@ -23,6 +24,13 @@ namespace py = pybind11;
 // The fields of contrejour.Light: direction, value, spectrum, distance_mm, radius_rad.
 using LightFields =
     std::tuple<std::tuple<double, double, double>, std::tuple<double, double, double>, std::string, double, double>;
+
+// A window of a picture: x, y, width, height.
+using WindowFields = std::tuple<int, int, int, int>;
+[[nodiscard]] inline PixelWindow window_of_fields(const WindowFields& fields) {
+  const auto [x, y, width, height] = fields;
+  return {x, y, width, height};
+}
 
 // Errors: a spectrum that there is not.
 [[nodiscard]] Light light_of(const LightFields& fields);

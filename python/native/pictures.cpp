@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "contrejour/apply.h"
+#include "contrejour/expert/measured_settings.h"
 #include "contrejour/expert/metrics.h"
+#include "contrejour/expert/picture_window.h"
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/source_renderer.h"
@@ -40,14 +42,38 @@ Picture picture_of_array(const PixelArray& pixels) {
   return picture_of(image);
 }
 
+// The picture with its flare: all steps of apply_flare(), for a window of the picture if one is given, which is then
+// what is left of the picture.
+Result<AppliedFlare> apply_in_window(Picture& picture, const FlareSource& source, const params::Values& values,
+                                     const PixelWindow& window, const Context& context) {
+  if (const auto* measured = std::get_if<MeasuredFlare>(&source))
+    if (auto good = check_measured_values(*measured, values, MeasuredUse::Photograph); !good)
+      return tl::unexpected(good.error());
+  const LensState geometry = geometry_of(source);
+  auto whole = plan_flare(picture, geometry, values);
+  if (!whole) return tl::unexpected(whole.error());
+  auto plan = window_of(std::move(*whole), window, picture, values, geometry);
+  if (!plan) return tl::unexpected(plan.error());
+  auto renderer = renderer_of(values, source);
+  if (!renderer) return tl::unexpected(renderer.error());
+  picture.rgb = window_of(picture.rgb, window);
+  auto flare = render_flare(*plan, picture.rgb, values, *renderer, context);
+  if (!flare) return tl::unexpected(flare.error());
+  add_flare(picture.rgb, flare->image);
+  return AppliedFlare{std::move(*plan), std::move(*flare)};
+}
+
 // By a measured flare, if there is one, or else by the lens.
 py::tuple apply(const PixelArray& pixels, const LensState& lens, const std::shared_ptr<MeasuredFlare>& measured,
-                const params::Values& values, const py::object& progress) {
+                const params::Values& values, const std::optional<WindowFields>& window, const py::object& progress,
+                CancelFlag* cancel) {
   Picture picture = picture_of_array(pixels);
   const FlareSource source = measured ? FlareSource(*measured) : FlareSource(lens);
-  LongCall call(values.integer("threads"), progress);
-  AppliedFlare applied =
-      call.run([&](const Context& context) { return apply_flare(picture, source, values, context); });
+  LongCall call(values.integer("threads"), {progress, cancel});
+  AppliedFlare applied = call.run([&](const Context& context) {
+    return window ? apply_in_window(picture, source, values, window_of_fields(*window), context)
+                  : apply_flare(picture, source, values, context);
+  });
   const FlareVisibility& seen = applied.flare.visibility;
   return py::make_tuple(array_of(std::move(picture.rgb)), array_of(std::move(applied.flare.image)),
                         lights_of_detection(applied.plan.found), applied.plan.warnings,
@@ -86,7 +112,7 @@ PreviewSettings preview_of(const Image& image, std::optional<double> exposure_st
 
 void add_pictures(py::module_& module) {
   module.def("apply", apply, py::arg("picture"), py::arg("lens"), py::arg("measured"), py::arg("values"),
-             py::arg("progress"));
+             py::arg("window"), py::arg("progress"), py::arg("cancel"));
   module.def("detect_lights", detect, py::arg("picture"), py::arg("values"));
   module.def("compare", compare_pictures, py::arg("a"), py::arg("b"));
   module.def(

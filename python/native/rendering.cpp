@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/picture_window.h"
 #include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
@@ -56,10 +58,12 @@ class LensRenderer {
   }
 
   // Into `out`, or into a new array. Returns the array and the statistics.
-  py::tuple render(const params::Values& values, const std::vector<LightFields>& lights, std::optional<py::array> out,
-                   const py::object& progress) {
-    const PictureRequest request = prepare(values, lights);
-    LongCall call(values.integer("threads"), progress);
+  py::tuple render(const params::Values& values, const std::vector<LightFields>& lights,
+                   const std::optional<WindowFields>& window, std::optional<py::array> out, const py::object& progress,
+                   CancelFlag* cancel) {
+    PictureRequest request = prepare(values, lights);
+    if (window) request = value_of(window_of(std::move(request), window_of_fields(*window), values, geometry()));
+    LongCall call(values.integer("threads"), {progress, cancel});
     if (!out) {
       Flare flare = call.run([&](const Context& context) { return render_picture(request, renderer_, context); });
       return py::make_tuple(array_of(std::move(flare.image)), dict_of(flare.statistics));
@@ -72,13 +76,13 @@ class LensRenderer {
 
   // The picture, its statistics, and a dictionary of layers that sum to it, whole.
   py::tuple render_layers(const params::Values& values, const std::vector<LightFields>& lights, const std::string& by,
-                          int count, double min_percent, const py::object& progress) {
+                          int count, double min_percent, const py::object& progress, CancelFlag* cancel) {
     const PictureRequest request = prepare(values, lights);
     LayerOptions options;
     options.by = layers_by(by);
     options.ghost_count = count;
     options.min_percent = min_percent;
-    LongCall call(values.integer("threads"), progress);
+    LongCall call(values.integer("threads"), {progress, cancel});
     LayeredFlare flare =
         call.run([&](const Context& context) { return render_picture_layers(request, renderer_, options, context); });
     py::dict layers;
@@ -88,12 +92,12 @@ class LensRenderer {
   }
 
   // The lights' own images alone.
-  py::array starburst(const params::Values& values, const std::vector<LightFields>& lights,
-                      const py::object& progress) {
+  py::array starburst(const params::Values& values, const std::vector<LightFields>& lights, const py::object& progress,
+                      CancelFlag* cancel) {
     PictureRequest request = prepare(values, lights);
     request.settings.starburst.on = true;
     request.settings.selection = SelectBrightest{0};
-    LongCall call(values.integer("threads"), progress);
+    LongCall call(values.integer("threads"), {progress, cancel});
     return array_of(
         std::move(call.run([&](const Context& context) { return render_picture(request, renderer_, context); }).image));
   }
@@ -108,6 +112,11 @@ class LensRenderer {
     return request;
   }
 
+  [[nodiscard]] LensState geometry() const {
+    const auto* flare = std::get_if<MeasuredFlare>(&renderer_);
+    return flare != nullptr ? ideal_lens_of(*flare) : *lens_;
+  }
+
   SourceRenderer renderer_;
   std::shared_ptr<LensState> lens_;
 };
@@ -120,9 +129,11 @@ void add_rendering(py::module_& module) {
       .def("set_lens", &LensRenderer::set_lens, py::arg("lens"))
       .def("set_flare", &LensRenderer::set_flare, py::arg("flare"))
       .def("render_layers", &LensRenderer::render_layers, py::arg("values"), py::arg("lights"), py::arg("by"),
-           py::arg("count"), py::arg("min_percent"), py::arg("progress"))
-      .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("out"), py::arg("progress"))
-      .def("starburst", &LensRenderer::starburst, py::arg("values"), py::arg("lights"), py::arg("progress"));
+           py::arg("count"), py::arg("min_percent"), py::arg("progress"), py::arg("cancel"))
+      .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("window"), py::arg("out"),
+           py::arg("progress"), py::arg("cancel"))
+      .def("starburst", &LensRenderer::starburst, py::arg("values"), py::arg("lights"), py::arg("progress"),
+           py::arg("cancel"));
 }
 
 }  // namespace contrejour::python

@@ -18,7 +18,7 @@ Status define_clip(EffectHandle effect, const char* name, PropertySetHandle* pro
   auto clip = std::make_unique<ClipStruct>();
   clip->name = name;
   clip->effect = effect;
-  clip->properties.unknown = effect->properties.unknown;
+  clip->properties.known = effect->properties.known;
   *properties = &clip->properties;
   effect->clips.push_back(std::move(clip));
   return status::kOk;
@@ -36,7 +36,7 @@ Status give_image(ClipHandle clip, Time /*time*/, const RectD* /*region*/, Prope
   HostPicture& picture = *clip->picture;
   auto given = std::make_unique<GivenImage>();
   given->effect = clip->effect;
-  given->unknown = clip->effect->properties.unknown;
+  given->known = clip->effect->properties.known;
   given->put<void*>(name::kImageData, {picture.lowest_row()});
   given->put<int>(name::kImageBounds, {picture.bounds.x1, picture.bounds.y1, picture.bounds.x2, picture.bounds.y2});
   given->put<int>(name::kImageRowBytes, {picture.row_bytes});

@@ -15,7 +15,7 @@ Status define_param(ParamSetHandle set, const char* type, const char* name, Prop
   auto param = std::make_unique<ParamStruct>();
   param->name = name;
   param->type = type;
-  param->properties.unknown = set->properties.unknown;
+  param->properties.known = set->properties.known;
   param->properties.put<std::string>(name::kName, {name});
   if (properties != nullptr) *properties = &param->properties;
   set->params.push_back(std::move(param));

@@ -11,7 +11,7 @@ namespace {
 template <class T>
 Status set_one(PropertySetHandle set, const char* property, int index, T value) {
   if (set == nullptr) return status::kErrBadHandle;
-  if (set->unknown != nullptr && set->unknown->contains(property)) return status::kErrUnknown;
+  if (set->known != nullptr && !set->known->has(property)) return status::kErrUnknown;
   auto& values = set->values[property];
   if (index < 0 || index > static_cast<int>(values.size())) return status::kErrBadIndex;
   if (!values.empty() && values.front().index() != PropertyValue(value).index()) return status::kErrValue;
@@ -25,7 +25,7 @@ Status set_one(PropertySetHandle set, const char* property, int index, T value) 
 template <class T>
 Status get_one(PropertySetHandle set, const char* property, int index, const T** value) {
   if (set == nullptr) return status::kErrBadHandle;
-  if (set->unknown != nullptr && set->unknown->contains(property)) return status::kErrUnknown;
+  if (set->known != nullptr && !set->known->has(property)) return status::kErrUnknown;
   const auto found = set->values.find(property);
   if (found == set->values.end()) return status::kErrUnknown;
   if (index < 0 || index >= static_cast<int>(found->second.size())) return status::kErrBadIndex;

@@ -76,9 +76,10 @@ TEST_CASE("openfx: a host without the suites that everything needs is refused, o
 
 TEST_CASE("openfx: a host that knows little more than version 1.0") {
   const TestHost host(
-      {.unknown_properties = {name::kNoSpatialAwareness, name::kPluginDescription, name::kRenderScale,
-                              name::kInteractiveRender, name::kRenderQualityDraft, name::kImagePixelAspectRatio,
-                              name::kClipConnected, name::kDisplayMin, name::kDigits, name::kProjectOffset}});
+      {.known_properties = {.refused = {name::kNoSpatialAwareness, name::kPluginDescription, name::kRenderScale,
+                                        name::kInteractiveRender, name::kRenderQualityDraft,
+                                        name::kImagePixelAspectRatio, name::kClipConnected, name::kDisplayMin,
+                                        name::kDigits, name::kProjectOffset}}});
   Scene scene(host, context::kGenerator);
   REQUIRE(scene.render() == status::kOk);
   CHECK(sum_of(scene.output) > 0.0);

@@ -47,6 +47,8 @@ std::unique_ptr<ParamStruct> instance_of(const ParamStruct& described) {
 
 }  // namespace
 
+const PluginTable* open_plugin() { return symbol_of<PluginTable* (*)(int)>(library(), "OfxGetPlugin")(0); }
+
 bool ParamStruct::is_whole() const { return type == type::kInteger || type == type::kBoolean || type == type::kChoice; }
 
 const std::vector<double>& ParamStruct::at(double time) const {
@@ -127,8 +129,7 @@ TestHost::TestHost(HostOptions options) : options_(std::move(options)) {
   properties_.put<std::string>(name::kName, {options_.name});
   properties_.put<std::string>(name::kType, {"OfxTypeImageEffectHost"});
   table_ = {&properties_, &TestHost::fetch_suite};
-  void* const opened = library();
-  plugin_ = symbol_of<PluginTable* (*)(int)>(opened, "OfxGetPlugin")(0);
+  plugin_ = open_plugin();
   plugin_->set_host(&table_);
   load_status_ = act(action::kLoad, nullptr);
 }
@@ -157,8 +158,8 @@ Status TestHost::act(const char* action, EffectStruct* effect, PropertySetStruct
 
 std::unique_ptr<EffectStruct> TestHost::describe(const char* context) const {
   auto effect = std::make_unique<EffectStruct>();
-  effect->properties.unknown = &options_.unknown_properties;
-  effect->params.properties.unknown = &options_.unknown_properties;
+  effect->properties.known = &options_.known_properties;
+  effect->params.properties.known = &options_.known_properties;
   PropertySetStruct in;
   in.put<std::string>(name::kContext, {context});
   PropertySetStruct host = properties_;
@@ -169,9 +170,15 @@ std::unique_ptr<EffectStruct> TestHost::describe(const char* context) const {
 }
 
 std::unique_ptr<EffectStruct> TestHost::create(const char* context, double width, double height) const {
+  auto effect = populate(context, width, height);
+  if (act(action::kCreateInstance, effect.get()) != status::kOk) throw std::runtime_error("no instance was created");
+  return effect;
+}
+
+std::unique_ptr<EffectStruct> TestHost::populate(const char* context, double width, double height) const {
   const auto descriptor = describe(context);
   auto effect = std::make_unique<EffectStruct>();
-  effect->properties.unknown = &options_.unknown_properties;
+  effect->properties.known = &options_.known_properties;
   effect->properties.put<std::string>(name::kContext, {context});
   effect->properties.put<double>(name::kProjectSize, {width, height});
   effect->properties.put<double>(name::kProjectOffset, {0.0, 0.0});
@@ -183,13 +190,12 @@ std::unique_ptr<EffectStruct> TestHost::create(const char* context, double width
     clip->effect = effect.get();
     effect->clips.push_back(std::move(clip));
   }
-  if (act(action::kCreateInstance, effect.get()) != status::kOk) throw std::runtime_error("no instance was created");
   return effect;
 }
 
 Status TestHost::render(EffectStruct& effect, const RenderArguments& arguments) const {
   PropertySetStruct in;
-  in.unknown = &options_.unknown_properties;
+  in.known = &options_.known_properties;
   in.put<double>(name::kTime, {arguments.time});
   const RectI& window = arguments.window;
   in.put<int>(name::kRenderWindow, {window.x1, window.y1, window.x2, window.y2});

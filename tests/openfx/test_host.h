@@ -20,9 +20,19 @@ namespace contrejour::openfx {
 
 using PropertyValue = std::variant<int, double, std::string, void*>;
 
+// The properties that a host has.
+struct KnownProperties {
+  std::set<std::string> refused = {};
+  std::set<std::string> declared = {};  // if there are any, all others are refused
+
+  [[nodiscard]] bool has(const std::string& property) const {
+    return !refused.contains(property) && (declared.empty() || declared.contains(property));
+  }
+};
+
 struct PropertySetStruct {
   std::map<std::string, std::vector<PropertyValue>> values;
-  const std::set<std::string>* unknown = nullptr;  // properties that the host refuses
+  const KnownProperties* known = nullptr;  // null: all
 
   template <class T>
   void put(const std::string& name, std::initializer_list<T> all) {
@@ -111,10 +121,13 @@ struct DrawContextStruct {
   std::vector<PointD> points;
 };
 
+// The first plug-in of the built bundle, loaded as hosts load it.
+[[nodiscard]] const PluginTable* open_plugin();
+
 struct HostOptions {
   std::string name = "org.contrejour.TestHost";
   std::set<std::string> missing_suites = {};  // by name and version: "OfxMessageSuite2"
-  std::set<std::string> unknown_properties = {};
+  KnownProperties known_properties = {};
   bool passes_context = true;  // to DescribeInContext; false: the host's own properties, as one host does
 };
 
@@ -143,6 +156,8 @@ class TestHost {
   [[nodiscard]] std::unique_ptr<EffectStruct> describe(const char* context) const;
   // An instance in a project of this size, with all parameters at their defaults.
   [[nodiscard]] std::unique_ptr<EffectStruct> create(const char* context, double width, double height) const;
+  // The same without kOfxActionCreateInstance.
+  [[nodiscard]] std::unique_ptr<EffectStruct> populate(const char* context, double width, double height) const;
   void destroy(EffectStruct& effect) const { act(action::kDestroyInstance, &effect); }
   [[nodiscard]] Status render(EffectStruct& effect, const RenderArguments& arguments) const;
 

@@ -169,6 +169,55 @@ class RenderTest(unittest.TestCase):
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
         self.assertGreater(contrejour.render(LENS, LIGHT, **QUICK).image.sum(), 0)
 
+    def test_cancel(self):
+        # From another thread, in phases that take seconds to minutes. A busy machine may make the call wait.
+        picture = np.full((540, 960, 3), 0.1, np.float32)
+        picture[::60, ::80] = 5000
+        frame = {"width": 640, "height": 400}
+        flag = contrejour.CancelFlag()
+        calls = {
+            "reference": lambda: contrejour.render("canon-70-200", LIGHT, method="reference", density=16, cancel=flag, **frame),
+            "polynomial": lambda: contrejour.render("canon-70-200", LIGHT, method="polynomial", cancel=flag, **frame),
+            "starburst": lambda: contrejour.render("canon-70-200", LIGHT, starburst=True, cancel=flag, width=1920, height=1280),
+            "layers": lambda: contrejour.render_layers("canon-70-200", LIGHT, by="ghost", cancel=flag, width=1920, height=1280),
+            "apply": lambda: contrejour.apply(picture, "canon-70-200", cancel=flag),
+            "rays": lambda: contrejour.trace(LENS, np.zeros((5_000_000, 3)), np.ones((5_000_000, 3)), cancel=flag),
+        }
+        for name, call in calls.items():
+            flag.clear()
+            flagged = []
+            timer = threading.Timer(0.3, lambda: (flagged.append(time.process_time()), flag.set()))
+            timer.start()
+            with self.assertRaises(contrejour.CancelledError, msg=name):
+                call()
+            # Processor time, of two threads at most beside the timer's own, which other programs do not lengthen.
+            self.assertLess(time.process_time() - flagged[0], 0.2, name)
+            timer.join()
+        self.assertTrue(flag.is_set())
+        with self.assertRaises(contrejour.CancelledError):
+            contrejour.render(LENS, LIGHT, cancel=flag, **QUICK)
+        flag.clear()
+        self.assertGreater(contrejour.render(LENS, LIGHT, cancel=flag, **QUICK).image.sum(), 0)
+
+    def test_window(self):
+        whole = contrejour.render(LENS, LIGHT, **QUICK).image
+        frame = contrejour.render(LENS, LIGHT, window=(0, 0, 48, 32), **QUICK).image
+        np.testing.assert_array_equal(frame, whole)
+        part = contrejour.render(LENS, LIGHT, window=(20, 4, 15, 9), **QUICK).image
+        self.assertEqual(part.shape, (9, 15, 3))
+        np.testing.assert_allclose(part, whole[4:13, 20:35], atol=0.05 * whole.max())
+        self.assertGreater(np.corrcoef(part.ravel(), whole[4:13, 20:35].ravel())[0, 1], 0.97)
+        into = np.zeros((9, 15, 4), np.float32)
+        contrejour.render(LENS, LIGHT, window=(20, 4, 15, 9), out=into, **QUICK)
+        np.testing.assert_array_equal(into[..., :3], part)
+        for wrong in ((40, 0, 9, 9), (-1, 0, 9, 9), (0, 0, 0, 9)):
+            with self.assertRaisesRegex(contrejour.InvalidArgumentError, "48 x 32"):
+                contrejour.render(LENS, LIGHT, window=wrong, **QUICK)
+        # Pixels that are not square on the sensor.
+        wide = contrejour.render(LENS, LIGHT, pixel_aspect=2, **QUICK).image
+        half = contrejour.render(LENS, LIGHT, pixel_aspect=2, window=(24, 0, 24, 32), **QUICK).image
+        np.testing.assert_allclose(half, wide[:, 24:], atol=0.05 * wide.max())
+
     def test_other_threads_run(self):
         counted = [0]
         done = threading.Event()
@@ -205,6 +254,20 @@ class PhotographTest(unittest.TestCase):
         in_place = contrejour.apply(half, LENS, out=half, error=0.02, wavelengths=3)
         self.assertIs(in_place.image, half)
         self.assertTrue((half > 0.1).any())
+
+    def test_window(self):
+        picture = photograph(channels=4)
+        settings = {"error": 0.02, "wavelengths": 3, "starburst": True}
+        whole = contrejour.apply(picture, LENS, **settings)
+        part = contrejour.apply(picture, LENS, window=(10, 2, 30, 20), **settings)
+        self.assertEqual((part.image.shape, part.flare.shape), ((20, 30, 4), (20, 30, 3)))
+        self.assertEqual(part.lights, whole.lights)  # found in the whole picture
+        np.testing.assert_allclose(part.flare, whole.flare[2:22, 10:40], atol=0.02 * whole.flare.max())
+        np.testing.assert_array_equal(part.image[..., 3], picture[2:22, 10:40, 3])
+        away = contrejour.apply(picture, LENS, window=(0, 20, 9, 9), **settings)  # without the light
+        np.testing.assert_allclose(away.flare, whole.flare[20:29, :9], atol=0.02 * whole.flare.max())
+        with self.assertRaises(contrejour.InvalidArgumentError):
+            contrejour.apply(picture, LENS, window=(0, 20, 9, 90), **settings)
 
     def test_detection(self):
         found = contrejour.detect_lights(photograph())
@@ -250,6 +313,13 @@ class RaysTest(unittest.TestCase):
         np.testing.assert_allclose(y_mm, state.focal_length_mm * math.tan(angle), rtol=1e-2)
         ghost = contrejour.ghosts(state, (0, 0))[0]
         self.assertLess(contrejour.trace(state, origins, directions, ghost=ghost.surfaces).transmission.max(), 0.1)
+        # Into the arrays of an earlier call, and on any number of threads.
+        again = contrejour.trace(state, origins, directions, threads=1)
+        into = contrejour.trace(state, np.flip(origins, 0), directions, out=again, threads=3)
+        self.assertIs(into, again)
+        np.testing.assert_array_equal(into.sensor_mm[::-1], contrejour.trace(state, origins, directions).sensor_mm)
+        with self.assertRaisesRegex(ValueError, "out"):
+            contrejour.trace(state, origins[:5], directions[:5], out=again)
         with self.assertRaises(ValueError):
             contrejour.trace(state, origins, directions[:5])
         with self.assertRaises(ValueError):

@@ -48,13 +48,16 @@ def light_text(light: FlareLight, u: float, v: float, mm_per_unit: float, first_
     return f"{u!r},{v!r}:{value}:{light.spectrum}:{min(light.size_deg, 80.0)!r}:{distance}"
 
 
-def render(request: FlareRequest, progress: Optional[Callable[[float], Any]] = None) -> np.ndarray:
-    """float32 (height, width, 3), linear, of the size of Blender's render. Raises the library's errors."""
+def render(
+    request: FlareRequest, progress: Optional[Callable[[float], Any]] = None, cancel: Any = None
+) -> np.ndarray:
+    """float32 (height, width, 3), linear, of the size of Blender's render. Raises the library's errors. cancel: a
+    CancelFlag of the library's."""
     frame = request.frame
     if not any(key in request.settings for key in ("light", "light_at")):
         return np.zeros((frame.bottom - frame.top, frame.right - frame.left, 3), np.float32)
     contrejour = library.load()
-    flare = contrejour.render(request.lens, preset=request.look, progress=progress, **request.settings)
+    flare = contrejour.render(request.lens, preset=request.look, progress=progress, cancel=cancel, **request.settings)
     picture = flare.image
     if not frame.is_whole:
         picture = np.ascontiguousarray(picture[frame.top : frame.bottom, frame.left : frame.right])

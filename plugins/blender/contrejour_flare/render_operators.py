@@ -2,22 +2,18 @@
 """Render Flare and Render Flare Animation.
 
 With a window they run as modal operators: Blender's data is read in the main thread, the library renders in another
-one, and a timer looks after it. Esc ends the operator at once; the library may take some seconds more to end its call,
-and then writes nothing. In background mode, and from scripts, they run in the main thread.
+one, and a timer looks after it. Esc ends the operator at once, and the library's call within a moment, which then writes
+nothing. In background mode, and from scripts, they run in the main thread.
 """
 import threading
 
 import bpy
 
-from . import collect, flare_request, messages
+from . import collect, flare_request, library, messages
 from .frame_files import frame_file
 
 IMAGE_NAME = "Contrejour Flare"
 _POLL_SECONDS = 0.05
-
-
-class _Stopped(Exception):
-    """Ends a render that is not wanted any more."""
 
 
 class _Render(threading.Thread):
@@ -27,11 +23,11 @@ class _Render(threading.Thread):
         super().__init__(name="contrejour")
         self.progress, self.error = 0.0, None
         self._request, self._file, self._half = request, file, half
-        self._unwanted = threading.Event()
+        self._unwanted = library.load().CancelFlag()
 
     def run(self) -> None:
         try:
-            picture = flare_request.render(self._request, self._report)
+            picture = flare_request.render(self._request, self._report, self._unwanted)
             if not self._unwanted.is_set():
                 flare_request.write(picture, self._file, self._half)
         except BaseException as error:  # it is raised again in the main thread
@@ -42,8 +38,6 @@ class _Render(threading.Thread):
 
     def _report(self, fraction: float) -> None:
         self.progress = fraction
-        if self._unwanted.is_set():
-            raise _Stopped
 
 
 def flare_file(scene, frame: int) -> str:

@@ -247,7 +247,7 @@ Result<DrawnFlare> draw_adaptive(const PlannedFrame& planned, double error, cons
   Stopwatch watch;
 
   DrawnFlare flare;
-  const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris), fitted};
+  const Scene scene{lens, plan, StepsByWavelength(lens, plan.tables), IrisShape(lens.iris), fitted, &context};
   Context quiet = context;
   quiet.progress = {};
   Work work;

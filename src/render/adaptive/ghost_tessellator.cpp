@@ -138,6 +138,7 @@ void GhostTessellator::tessellate(const FirstRays& rays, bool with_mirror_image,
     if (parts.empty()) return;
     Tessellator cells(iris_, frame_, per_band, kFewCells, scratch_, out);
     cells.set_curved_sides(tracers_.is_curved());
+    cells.stop_with(context_);
     for (std::size_t band = 0; band < set.size(); ++band) {
       cells.set_dirt(DirtView{dirt_of_set[band], &tracers_.light(), tracers_.plane_z_mm()});
       if (of_set[band]) cells.set_stop_pattern(of_set[band], tracers_.stop_times());
@@ -166,9 +167,10 @@ void GhostTessellator::tessellate(const FirstRays& rays, bool with_mirror_image,
 
 // Paints one of the set's bands.
 void GhostTessellator::tessellate_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
-                                       Tessellator& cells) {
+                                       Tessellator& cells) const {
   Patch patch;
   for (const FittedPart& part : parts) {
+    if (context_ != nullptr && context_->cancelled()) return;
     if (!part.only_band)
       set.band_patch(part.patches, band, patch);
     else if (*part.only_band == band)

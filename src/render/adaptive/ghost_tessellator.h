@@ -32,6 +32,9 @@ class GhostTessellator {
                    const GhostPatterns* patterns = nullptr,
                    std::span<const std::shared_ptr<const DirtShadows>> dirt = {});
 
+  // Once the context is cancelled, polygons may be missing. It outlives this object; null: never.
+  void stop_with(const Context* context) { context_ = context; }
+
   // box: in the light's meridional frame. with_mirror_image: whether the box's mirror image is painted, too.
   void tessellate(const Rectangle& box, bool with_mirror_image, const ErrorBudget& budget, PolygonList& out);
 
@@ -43,8 +46,8 @@ class GhostTessellator {
   [[nodiscard]] std::shared_ptr<const stop_patterns::BandStopPattern> band_pattern(const FirstRays& rays,
                                                                                    const Band& band) const;
   [[nodiscard]] std::shared_ptr<const stop_patterns::BandDirt> band_dirt(const FirstRays& rays, const Band& band) const;
-  static void tessellate_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
-                              Tessellator& cells);
+  void tessellate_band(const BandSet& set, std::size_t band, std::span<const FittedPart> parts,
+                       Tessellator& cells) const;
 
   GhostTracers& tracers_;
   WavelengthSamples samples_;
@@ -54,6 +57,7 @@ class GhostTessellator {
   const GhostPatterns* patterns_;
   std::span<const std::shared_ptr<const DirtShadows>> dirt_;
   BoxCells& scratch_;
+  const Context* context_ = nullptr;
 };
 
 }  // namespace contrejour::inline internal::adaptive

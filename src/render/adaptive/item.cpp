@@ -130,6 +130,7 @@ TessellatedItem tessellate(const Scene& scene, const Item& item, Quality quality
   const auto scratch = scratch_pool.lend();
   GhostTessellator tessellator(tracers, iris, frame, quality == Quality::Full ? kMaxDepth : kPeakMaxDepth, *scratch,
                                item.patterns.get(), item.shadows);
+  tessellator.stop_with(scene.context);
   for (const Rectangle& box : item.boxes) {
     const bool off_axis = light.symmetric && box.low.y != -box.high.y;
     const bool has_image = off_axis && std::ranges::count(item.boxes, mirrored(box)) > 0;

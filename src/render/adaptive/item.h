@@ -17,6 +17,7 @@ struct Scene {
   StepsByWavelength steps;  // for the wavelengths of the plan
   IrisShape iris;
   const FittedGhosts* fitted = nullptr;  // null: all rays are traced
+  const Context* context = nullptr;  // once it is cancelled, polygons may be missing; null: never
 };
 
 struct Work {

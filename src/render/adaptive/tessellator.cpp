@@ -6,7 +6,10 @@ namespace contrejour::inline internal::adaptive {
 void Tessellator::emit() {
   cells_.make_conforming();
   for (std::size_t k = 0; k < cells_.count(); ++k)
-    for (const ChosenCell& cell : cells_[k].cells) emitter_.emit(cells_[k], cell);
+    for (const ChosenCell& cell : cells_[k].cells) {
+      if (context_ != nullptr && context_->cancelled()) break;
+      emitter_.emit(cells_[k], cell);
+    }
   cells_.clear();
   budget_.start_band();
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "contrejour/context.h"
 #include "contrejour/frame.h"
 #include "render/adaptive/budget/cell_budget.h"
 #include "render/adaptive/budget/tolerance.h"
@@ -36,6 +37,8 @@ class Tessellator {
   // unit: of the patches' stop coordinates, in stop radii.
   void set_stop_pattern(std::shared_ptr<const stop_patterns::BandStopPattern> pattern, double unit);
   void set_dirt(const DirtView& dirt) { band_.dirt = dirt; }
+  // Once it is cancelled, emit() leaves cells out: those under dirt may take tenths of a second. Null: never.
+  void stop_with(const Context* context) { context_ = context; }
 
  private:
   BoxCells& cells_;
@@ -43,6 +46,7 @@ class Tessellator {
   BandContext band_;
   CellChooser chooser_;
   CellEmitter emitter_;
+  const Context* context_ = nullptr;
 };
 
 }  // namespace contrejour::inline internal::adaptive

@@ -87,11 +87,12 @@ double longest_shift_px(const BandMotion& motion, const Frame& frame) {
   return longest;
 }
 
-FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame, int border) {
+FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame, const BlurOptions& options) {
+  const int border = options.border;
   const PixelBox from = band.box();
   if (from.empty()) return FluxBox({});
   FluxBox out(reached(from, motion, frame, border));
-  for (int y = from.y0; y < from.y1; ++y) {
+  for (int y = from.y0; y < from.y1 && !options.context.cancelled(); ++y) {
     const auto row = band.row(y);
     for (int x = from.x0; x < from.x1; ++x) {
       const float flux = row[static_cast<std::size_t>(x - from.x0)];

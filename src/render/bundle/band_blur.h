@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/context.h"
 #include "contrejour/frame.h"
 #include "render/bundle/flux_box.h"
 #include "render/bundle/map_figures.h"
@@ -34,9 +35,14 @@ struct BandMotion {
 // The longest distance that flux moves from its pixel, anywhere in the full frame.
 [[nodiscard]] double longest_shift_px(const BandMotion& motion, const Frame& frame);
 
-// Spreads every pixel's flux evenly over its line. The band is drawn with a border of `border` pixels around the frame;
-// light that leaves the frame is lost.
+struct BlurOptions {
+  int border = 0;  // the pixels around the frame with which the band was drawn
+  const Context& context;  // once it is cancelled, the result is incomplete
+};
+
+// Spreads every pixel's flux evenly over its line. Light that leaves the frame is lost.
 // Differs: the paper's kernel is one for the whole ghost; here it follows the ghost's growth as well.
-[[nodiscard]] FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame, int border);
+[[nodiscard]] FluxBox blurred(const FluxBox& band, const BandMotion& motion, const Frame& frame,
+                              const BlurOptions& options);
 
 }  // namespace contrejour::inline internal::bundle

@@ -19,7 +19,6 @@ constexpr double kShadedCell_px = 4.0;
 // as a line.
 constexpr double kSliver = 1e-7;
 constexpr double kInvisibleDetail_px = 0.3;
-constexpr int kRowsBetweenStops = 16;
 constexpr double kUniform = 1e-3;  // a stop pattern this close to 1 all over a cell is drawn as 1
 
 double signed_area(Vec2 a, Vec2 b, Vec2 c) { return 0.5 * cross(b - a, c - a); }
@@ -383,7 +382,7 @@ FluxBox CellRaster::draw(const std::function<bool()>& stop) {
   if (out.box().empty()) return out;
   const int n = grid_.cells();
   for (int iy = 0; iy < n; ++iy) {
-    if (iy % kRowsBetweenStops == 0 && stop()) break;
+    if (stop()) break;  // a row of a large ghost may take milliseconds
     for (int ix = 0; ix < n; ++ix) {
       const CellState state = state_[cell_index(ix, iy)];
       if (state == CellState::Closed) continue;

@@ -97,6 +97,7 @@ std::vector<ItemRenderer::Layer> ItemRenderer::draw_and_blur() {
   std::vector<std::optional<GhostPupil>> pupils;
   std::vector<std::optional<MapFigures>> figures;
   for (const std::size_t k : order) {
+    if (context_.cancelled()) return std::vector<Layer>(order.size());
     pupils.push_back(grid_.find(item_.ghost, item_.light->source, item_.passes[k].lambda_nm, true));
     figures.push_back(pupils.back() ? pupils.back()->figures : std::nullopt);
   }
@@ -114,7 +115,7 @@ ItemRenderer::Layer ItemRenderer::draw_blurred(const GhostPupil& pupil, const st
   const int border = static_cast<int>(std::ceil(std::min(shift_px, kWidestBorder_px)));
   const FluxBox band = draw(pupil, bordered(frame_, border));
   const Stopwatch watch(grid_.counts().raster_ms);
-  return blurred(band, *motion, frame_, border);
+  return blurred(band, *motion, frame_, {border, context_});
 }
 
 FluxBox ItemRenderer::draw(const GhostPupil& pupil, const Frame& frame) {

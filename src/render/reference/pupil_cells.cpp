@@ -63,8 +63,10 @@ struct Extent {
 class CellWalker {
  public:
   CellWalker(const OpticalPath& path, const Iris& iris, const LightSource& light, double z_mm, const Frame& frame,
-             const CellLimits& limits, const LitPolygon& lit, const StopTransmittance& stop)
-      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit), stop_(stop) {
+             const CellLimits& limits, const LitPolygon& lit, const StopTransmittance& stop,
+             const std::function<bool()>& is_unwanted)
+      : path_(path), iris_(iris), light_(light), z_mm_(z_mm), frame_(frame), limits_(limits), lit_(lit), stop_(stop),
+        is_unwanted_(is_unwanted) {
     if (iris.field) hull_ = iris.field->hull();
   }
 
@@ -87,6 +89,7 @@ class CellWalker {
   }
 
   void walk(const Corners& corners, int depth) {
+    if (ended()) return;
     const Sample middle = sample((corners[0].entrance_mm + corners[2].entrance_mm) * 0.5);
     const Blocking blocking = blocking_of(corners, middle);
     if (!may_be_open(blocking, middle, depth)) return;
@@ -101,6 +104,14 @@ class CellWalker {
   }
 
   [[nodiscard]] CellCounts counts() const { return counts_; }
+
+  // Whether the caller wants no more cells. A cell of the first grid may be cut into so small ones that it takes tenths
+  // of a second.
+  [[nodiscard]] bool ended() {
+    constexpr unsigned int kCellsBetweenQuestions = 256;
+    if (!has_ended_ && visited_++ % kCellsBetweenQuestions == 0) has_ended_ = is_unwanted_();
+    return has_ended_;
+  }
 
  private:
   [[nodiscard]] StopTransmittance::Cell stop_cell(const Corners& corners, const Sample& middle,
@@ -360,6 +371,9 @@ class CellWalker {
   const StopTransmittance& stop_;
   std::vector<IrisBound> hull_;  // of a picture's opening
   CellCounts counts_;
+  const std::function<bool()>& is_unwanted_;
+  unsigned int visited_ = 0;
+  bool has_ended_ = false;
 };
 
 }  // namespace
@@ -380,7 +394,7 @@ CellCounts for_each_lit_polygon(const OpticalPath& path, const Iris& iris, const
                                 const EntranceWindow& window, const Frame& frame, const CellLimits& limits,
                                 const std::function<bool()>& stop, const LitPolygon& lit,
                                 const StopTransmittance& transmittance) {
-  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, transmittance);
+  CellWalker walker(path, iris, light, window.z_mm, frame, limits, lit, transmittance, stop);
   const int n = limits.root_cells;
   const auto row_of = [&](int iy) {
     std::vector<Sample> row;

@@ -243,7 +243,7 @@ TEST_CASE("a band's flux is spread half way to its neighbours") {
   CHECK(std::abs(motions[0]->end({10.5, 16.5}).x - motions[0]->start({10.5, 16.5}).x) == doctest::Approx(10.0));
   bundle::FluxBox box({0, 0, 64, 32});
   box.add_point({20.5, 16.5}, 15.0);
-  const bundle::FluxBox spread = bundle::blurred(box, *motions[1], frame, 0);
+  const bundle::FluxBox spread = bundle::blurred(box, *motions[1], frame, {0, Context{}});
   const auto at = [&](int x) { return spread.row(16)[static_cast<std::size_t>(x - spread.box().x0)]; };
   CHECK(at(20) == doctest::Approx(1.0));
   CHECK(at(29) == doctest::Approx(1.0));
