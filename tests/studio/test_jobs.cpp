@@ -200,6 +200,25 @@ TEST_CASE("the view is that of the command line's preview, to one code") {
   }
 }
 
+TEST_CASE("a picture in ACEScg is shown in the window's primaries") {
+  // ACEScg of Rec.709 red, by the matrices that the ACES project publishes.
+  auto image = std::make_shared<Image>(1, 1);
+  image->pixels = {0.61309F, 0.07020F, 0.02062F};
+  DisplayOrder order;
+  order.picture.kind = PictureKind::Refined;
+  order.picture.image = image;
+  order.picture.space = ColourSpace::AcesCg;
+  order.transform = ViewTransform::Clipped;
+  order.automatic = false;
+  DisplayJob job(display_work(), {});
+  job.post(order);
+  const auto answers = answers_until_idle<DisplayAnswer>(job);
+  REQUIRE(answers.size() == 1);
+  CHECK((answers[0].rgba[0] & 255U) >= 254);
+  CHECK((answers[0].rgba[0] >> 8U & 255U) <= 2);
+  CHECK((answers[0].rgba[0] >> 16U & 255U) <= 2);
+}
+
 TEST_CASE("false colours tell stops apart") {
   Image image(3, 1);
   for (std::size_t c = 0; c < 3; ++c) {

@@ -175,7 +175,8 @@ void draw_viewport(Ui& ui, Texture& picture) {
   draw_picture(ui, map, picture);
   draw_frame_guides(map);
   use_wheel_and_pan(ui, map, hovered);
-  const bool on_handle = use_light_handles(ui, map, hovered);
+  const bool on_edge = use_wipe_edge(ui, map, hovered);
+  const bool on_handle = on_edge || use_light_handles(ui, map, hovered);
   if (!on_handle && hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) select_under_mouse(ui, map);
   probe_pixel(ui, map, hovered);
   draw_selected_ghost(ui, map);

@@ -36,6 +36,27 @@ void draw_frame_guides(const ViewportMap& map) {
   list.AddLine({middle.x, middle.y - arm}, {middle.x, middle.y + arm}, colour);
 }
 
+bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered) {
+  CompareView compare = ui.studio.compare_view();
+  if (compare.mode != CompareMode::Wipe || ui.studio.snapshots().empty()) return false;
+  const float x = map.screen_of_uv({compare.edge, 0}).x, reach = scaled(6);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const float top = std::fmax(map.canvas_min.y, map.screen_of_uv({0, 0}).y),
+              bottom = std::fmin(map.canvas_max.y, map.screen_of_uv({0, 1}).y);
+  const bool near = is_hovered && std::fabs(mouse.x - x) < reach && mouse.y > top && mouse.y < bottom;
+  if (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) ui.state.drags_wipe = true;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) ui.state.drags_wipe = false;
+  if (ui.state.drags_wipe) {
+    compare.edge = std::fmin(1.0, std::fmax(0.0, map.uv_of_screen(mouse).x));
+    ui.studio.set_compare(compare);
+  }
+  const bool used = near || ui.state.drags_wipe;
+  if (used) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, used ? colours::kText : colours::kAccent, scaled(1.5F));
+  ui.registry.record("viewport/wipe", {x - reach, top}, {x + reach, bottom}, fmt::format("{:.4f}", compare.edge));
+  return used;
+}
+
 void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
   const GhostFigures* ghost = selected_figures(ui.studio);
   if (ghost == nullptr || !ui.studio.view.shows_ghosts) return;
