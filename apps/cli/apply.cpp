@@ -112,8 +112,8 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
     return tl::unexpected(ok.error());
   if (const auto ok = fill_plate(options); !ok) return tl::unexpected(ok.error());
   const bool has_frames = is_sequence(options.input) || !sequence.frames.empty();
-  const auto values = FrameValues::create({options.lights, has_frames ? options.preset.session : ""}, command_line,
-                                          options.values);
+  const auto values =
+      FrameValues::create({options.lights, has_frames ? options.preset.session : ""}, command_line, options.values);
   if (!values) return tl::unexpected(values.error());
   if (has_frames) return apply_to_sequence(options, *values, sequence);
   if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());

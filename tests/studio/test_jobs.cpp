@@ -245,6 +245,26 @@ TEST_CASE("figures are those of the light that is asked for, and the section has
   CHECK(std::find(under.begin(), under.end(), std::size_t{0}) != under.end());
   CHECK(ghosts_under(figures, {1e9, 0}).empty());
 
+  // Footprints have their figures' middle and size.
+  REQUIRE(answers[0].footprints.size() == kMostFootprints);
+  int traced = 0;
+  for (std::size_t k = 0; k < kMostFootprints; ++k) {
+    const GhostFootprint& footprint = answers[0].footprints[k];
+    if (footprint.cells_px.size() < 60 || figures[k].in_focus) continue;
+    Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
+    for (const auto& cell : footprint.cells_px)
+      for (const Vec2 p : cell) {
+        low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y)};
+        high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y)};
+      }
+    const double tolerance = 2 + 0.2 * std::fmax(figures[k].size_px.x, figures[k].size_px.y);
+    CHECK(std::fabs(high.x - low.x - figures[k].size_px.x) < tolerance);
+    CHECK(std::fabs(high.y - low.y - figures[k].size_px.y) < tolerance);
+    CHECK_FALSE(footprint.contains({high.x + 10, high.y + 10}, 3));
+    ++traced;
+  }
+  CHECK(traced > 5);
+
   SectionJob section_job(section_work(), {});
   const auto light = light_of(order.values, *order.lens, 0);
   REQUIRE(light);

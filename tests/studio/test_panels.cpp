@@ -68,7 +68,8 @@ TEST_CASE("each kind of export has its command") {
 
 TEST_CASE("looks have thumbnails, which are kept, and the user's own are among them") {
   const ScratchFolder folder;
-  const LookFolders folders{folder / "own", folder / "kept"};
+  const LookFolders folders{folder / "own", {}};
+  const auto kept = folder / "kept";
   Studio studio("first", small_scene(), {{}, {}, folders});
   CHECK_FALSE(studio.save_look("a/b"));
   REQUIRE(studio.save_look("Mine"));
@@ -78,7 +79,7 @@ TEST_CASE("looks have thumbnails, which are kept, and the user's own are among t
   const std::vector<Look> two = {studio.looks().front(), studio.looks().back()};
   const auto thumbnails_of = [&](const std::vector<Look>& looks) {
     ThumbnailJob job(thumbnail_work(), {});
-    job.post({looks, folders.thumbnails});
+    job.post({looks, kept});
     Thumbnails all;
     while (!job.is_idle())
       if (auto answer = job.take()) all = std::move(*answer);
@@ -88,7 +89,7 @@ TEST_CASE("looks have thumbnails, which are kept, and the user's own are among t
   REQUIRE(first.size() == 2);
   const Thumbnail& one = *first.at(two[0].source);
   CHECK(one.rgba.size() == static_cast<std::size_t>(kThumbnailWidth * kThumbnailHeight));
-  CHECK(std::distance(std::filesystem::directory_iterator(folders.thumbnails), {}) == 2);
+  CHECK(std::distance(std::filesystem::directory_iterator(kept), {}) == 2);
   CHECK(first.at(two[0].source)->rgba != first.at(two[1].source)->rgba);
   const Thumbnails again = thumbnails_of(two);
   int worst = 0;  // the kept one went through a file of 8 bits
@@ -144,7 +145,8 @@ TEST_CASE("the point spread has the arms of the iris, and dirt dims the pupil") 
   d = *with_light_at(d, 0, {0.5, 0.5});
   const auto answer_of = [](const Document& document) {
     PointSpreadJob job(point_spread_work(), {});
-    job.post({document.values(), std::make_shared<const LensState>(*params::lens_of(*document.lens, document.values())), 0});
+    job.post(
+        {document.values(), std::make_shared<const LensState>(*params::lens_of(*document.lens, document.values())), 0});
     PointSpreadAnswer answer;
     while (!job.is_idle())
       if (auto next = job.take()) answer = std::move(*next);
@@ -158,7 +160,8 @@ TEST_CASE("the point spread has the arms of the iris, and dirt dims the pupil") 
   // Six blades: the levels on a circle about the middle repeat every sixth of a turn, and not every fifth.
   const auto at = [&](double turn) {
     const double angle = 6.283185307179586 * turn;
-    const int x = static_cast<int>(kSpreadSide / 2 + 60 * std::cos(angle)), y = static_cast<int>(kSpreadSide / 2 - 60 * std::sin(angle));
+    const int x = static_cast<int>(kSpreadSide / 2 + 60 * std::cos(angle)),
+              y = static_cast<int>(kSpreadSide / 2 - 60 * std::sin(angle));
     return static_cast<double>(clean.spread[static_cast<std::size_t>(y * kSpreadSide + x)] & 255U);
   };
   const auto strength = [&](int times) {

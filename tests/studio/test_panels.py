@@ -64,9 +64,10 @@ class Iris(PanelTest):
 
 class Compare(PanelTest):
     def test_a_wipe_shows_the_snapshot_to_the_left_of_the_edge(self):
+        (self.folder / "start.session.json").write_text(scene(exposure="5"))
         hide = [["move", "status", 0.1, 0.5], ["frames", 3]]
-        lines = [["key", "f12"], ["key", "h"], ["frames", 3], ["click", "compare/take"], ["wait"], *hide, ["screenshot", "before.png"], ["key", "="],
-                 ["key", "-"], ["key", "h"], ["drag", "viewport/light/1", 90, 40, 5], ["wait"], ["key", "h"], *hide, ["screenshot", "after.png"], ["key", "w"], ["wait"],
+        lines = [["key", "f12"], ["key", "h"], ["frames", 3], ["click", "compare/take"], ["wait"], *hide, ["screenshot", "before.png"],
+                 ["key", "h"], ["frames", 2], ["drag", "viewport/light/1", 90, 40, 5], ["wait"], ["key", "h"], *hide, ["screenshot", "after.png"], ["key", "w"], ["wait"],
                  *hide, ["screenshot", "wiped.png"], ["state", "wiped.json"], ["drag", "viewport/wipe", -60, 0, 4], ["wait"], ["state", "dragged.json"],
                  ["click", "compare/mode/2"], ["wait"], ["state", "difference.json"], ["click", "compare/snapshot/1/restore"], ["wait"]]
         state = self.state_after(lines, window="1000x720")
@@ -120,11 +121,11 @@ class Timeline(PanelTest):
 
 class Section(PanelTest):
     def test_a_surface_is_dragged_by_its_middle_and_by_its_rim(self):
-        lines = [["wait"], ["state", "before.json"], ["drag", "section/surface/3", 8, 0, 4], ["wait"], ["state", "moved.json"],
+        lines = [["wait"], ["state", "before.json"], ["drag", "section/surface/9", 6, 0, 4], ["wait"], ["state", "moved.json"],
                  ["drag", "section/surface/1/rim", 6, 0, 4], ["wait"]]
         state = self.state_after(lines, window="1000x720")
         before, moved = self.state("before.json"), self.state("moved.json")
-        self.assertEqual(moved["history"]["steps"][-1], "move surface 3")
+        self.assertEqual(moved["history"]["steps"][-1], "move surface 9")
         self.assertEqual(moved["radii"], before["radii"])
         self.assertTrue(moved["edited"])
         self.assertEqual(state["history"]["steps"][-1], "bend surface 1")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plates in documents and sessions: the picture is that of `apply`, bit for bit, and their lights become the document's.
+// Plates in documents and sessions: the picture is that of `apply`, bit for bit, and their lights become the
+// document's.
 #include <filesystem>
 
 #include <doctest/doctest.h>
@@ -135,7 +136,8 @@ TEST_CASE("a draft on a plate has the plate's means and about the flare's light"
   REQUIRE(plate);
   CHECK(reduced_image((*plate)->picture.rgb, 60, 36).at(0, 0) == doctest::Approx(0.1));
   const Document d = *with_value(*with_value(small_scene(), "size", "120x72"), "detect", "off");
-  PictureOrder order{1, d.values(), std::make_shared<const LensState>(*params::lens_of(*d.lens, d.values())), {}, *plate};
+  PictureOrder order{
+      1, d.values(), std::make_shared<const LensState>(*params::lens_of(*d.lens, d.values())), {}, *plate};
   PictureJob job(picture_work(), {});
   job.post(order);
   std::vector<PictureAnswer> answers;
@@ -145,7 +147,8 @@ TEST_CASE("a draft on a plate has the plate's means and about the flare's light"
   REQUIRE(answers[0].image);
   const auto flare_of = [&](const Image& picture, const Image& without) {
     double sum = 0;
-    for (std::size_t k = 0; k < picture.pixels.size(); ++k) sum += static_cast<double>(picture.pixels[k] - without.pixels[k]);
+    for (std::size_t k = 0; k < picture.pixels.size(); ++k)
+      sum += static_cast<double>(picture.pixels[k] - without.pixels[k]);
     return sum / static_cast<double>(picture.pixels.size());
   };
   const Image& draft = *answers[0].image;

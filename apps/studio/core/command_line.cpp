@@ -34,7 +34,9 @@ std::string option_of(const params::Parameter& p, const std::string& text) {
 }
 
 // `render` finds no lights in a picture; `apply` has the plate's size.
-bool takes(bool applies, const params::Parameter& p) { return applies ? p.name != "size" : p.group != "Light detection"; }
+bool takes(bool applies, const params::Parameter& p) {
+  return applies ? p.name != "size" : p.group != "Light detection";
+}
 
 const char* name_of(LayersBy by) {
   static constexpr const char* names[] = {"light", "ghost", "part", "surface"};
@@ -58,8 +60,8 @@ std::string output_options(const CommandChoice& choice, bool applies) {
   const std::string output = quoted(choice.output);
   switch (choice.kind) {
     case ExportKind::Layers:
-      return fmt::format(" --layers {} {} {}", name_of(choice.layers_by),
-                         applies ? "-o out.exr --flare-only" : "-o", output);
+      return fmt::format(" --layers {} {} {}", name_of(choice.layers_by), applies ? "-o out.exr --flare-only" : "-o",
+                         output);
     case ExportKind::Frames: return fmt::format(" --frames {}-{} -o {}", choice.first, choice.last, output);
     case ExportKind::Look: return fmt::format(" --save-preset {} -o flare.exr", output);
     default: return " -o " + output;
@@ -70,8 +72,7 @@ std::string output_options(const CommandChoice& choice, bool applies) {
 
 std::string command_of_session(const Document& document, const std::string& file, const CommandChoice& choice) {
   if (choice.kind == ExportKind::Report) return "";
-  if (choice.kind == ExportKind::Lens)
-    return "contrejour lens convert " + quoted(file) + " " + quoted(choice.output);
+  if (choice.kind == ExportKind::Lens) return "contrejour lens convert " + quoted(file) + " " + quoted(choice.output);
   const bool applies = document.has_plate();
   return fmt::format("contrejour {} --session {}", applies ? "apply" : "render", quoted(file)) +
          output_options(choice, applies);

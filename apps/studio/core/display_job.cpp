@@ -97,9 +97,8 @@ class DisplayWorker {
     answer.width = image.width;
     answer.height = image.height;
     if (order.snapshot && order.compare.mode != CompareMode::Off)
-      answer.rgba =
-          displayed(compared_image(image, order.picture.pixel_area, *order.snapshot, order.compare), answer.stops,
-                    order.transform);
+      answer.rgba = displayed(compared_image(image, order.picture.pixel_area, *order.snapshot, order.compare),
+                              answer.stops, order.transform);
     else
       answer.rgba = displayed(image, answer.stops - std::log2(order.picture.pixel_area), order.transform);
     return answer;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The document that the studio edits: one lens and the values that the user has set, as a plain value. Every edit makes a new
-// document from an old one, which costs little: the lens is shared.
-// Errors: those of the table of parameters. Thread-safety: plain values, pure functions.
+// The document that the studio edits: one lens and the values that the user has set, as a plain value. Every edit makes
+// a new document from an old one, which costs little: the lens is shared. Errors: those of the table of parameters.
+// Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <filesystem>

@@ -113,10 +113,8 @@ std::size_t FrameCache::count() const {
 }
 
 CacheJob::Work cache_work(std::shared_ptr<FrameCache> cache) {
-  return [worker = std::make_shared<CacheWorker>(std::move(cache))](const CacheOrder& order,
-                                                                    CacheJob::Control& control) {
-    worker->work(order, control);
-  };
+  return [worker = std::make_shared<CacheWorker>(std::move(cache))](
+             const CacheOrder& order, CacheJob::Control& control) { worker->work(order, control); };
 }
 
 }  // namespace contrejour::studio

@@ -29,7 +29,8 @@ KeyedValue* track(Animation& animation, const TrackId& id) {
 
 Key key_of_text(const params::Parameter& p, const std::string& text, int frame) {
   const auto number = params::parse_real(text);
-  const bool is_number = (p.kind == params::Kind::Real || p.kind == params::Kind::Integer || p.name == "error") && number;
+  const bool is_number =
+      (p.kind == params::Kind::Real || p.kind == params::Kind::Integer || p.name == "error") && number;
   return is_number ? Key{frame, {*number}, {}} : Key{frame, {}, text};
 }
 

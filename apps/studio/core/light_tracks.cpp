@@ -111,7 +111,8 @@ bool is_constant(const KeyedValue& value) {
 }
 
 void insert_key(KeyedValue& value, const Key& key) {
-  const auto at = std::find_if(value.keys.begin(), value.keys.end(), [&](const Key& k) { return k.frame >= key.frame; });
+  const auto at =
+      std::find_if(value.keys.begin(), value.keys.end(), [&](const Key& k) { return k.frame >= key.frame; });
   if (at != value.keys.end() && at->frame == key.frame)
     *at = key;
   else
@@ -135,8 +136,8 @@ Result<Key> key_of_light(const Document& document, std::size_t light, LightPart 
   const auto lights = lights_of(document);
   if (light >= lights.size()) return invalid_argument("there is no such light");
   if (part != LightPart::Position && text_of_part(lights[light], part).empty())
-    return invalid_argument(fmt::format("give light {} a {} of its own first; then it can have keys", light + 1,
-                                        name_of(part)));
+    return invalid_argument(
+        fmt::format("give light {} a {} of its own first; then it can have keys", light + 1, name_of(part)));
   return key_of_part(lights[light], part, frame);
 }
 

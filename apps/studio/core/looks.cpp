@@ -56,8 +56,7 @@ fs::path kept_file(const Look& look, const fs::path& folder) {
 }
 
 std::shared_ptr<const Thumbnail> thumbnail_of(const Image& image, double stops, ViewTransform transform) {
-  return std::make_shared<const Thumbnail>(
-      Thumbnail{image.width, image.height, displayed(image, stops, transform)});
+  return std::make_shared<const Thumbnail>(Thumbnail{image.width, image.height, displayed(image, stops, transform)});
 }
 
 std::shared_ptr<const Thumbnail> read_kept(const fs::path& file) {
@@ -94,7 +93,8 @@ std::vector<Look> all_looks(const fs::path& own_folder) {
   std::vector<Look> own;
   std::error_code code;
   if (!own_folder.empty())
-    for (auto at = fs::directory_iterator(own_folder, code); !code && at != fs::directory_iterator(); at.increment(code))
+    for (auto at = fs::directory_iterator(own_folder, code); !code && at != fs::directory_iterator();
+         at.increment(code))
       if (at->path().extension() == ".toml")
         if (const auto preset = params::find_preset(at->path().string()))
           own.push_back(look_of(*preset, at->path().string(), true));
@@ -141,7 +141,8 @@ ThumbnailJob::Work thumbnail_work() {
       if (control.is_outdated()) return;
       const fs::path kept = kept_file(look, order.folder);
       auto thumbnail = read_kept(kept);
-      if (!thumbnail) thumbnail = rendered(look, kept, {.threads = kThumbnailThreads, .cancel = &control.is_outdated()});
+      if (!thumbnail)
+        thumbnail = rendered(look, kept, {.threads = kThumbnailThreads, .cancel = &control.is_outdated()});
       if (!thumbnail) return;
       all[look.source] = std::move(thumbnail);
       control.publish(all);

@@ -74,8 +74,8 @@ class MeasuredWorker {
     const auto rows = kymograph_of(*opened_.flare, opened_.half_width, context);
     if (!rows) return tl::unexpected(rows.error());
     stops_ = params::automatic_exposure(*rows);
-    opened_.kymograph = std::make_shared<const std::vector<std::uint32_t>>(
-        displayed(*rows, stops_, ViewTransform::Preview));
+    opened_.kymograph =
+        std::make_shared<const std::vector<std::uint32_t>>(displayed(*rows, stops_, ViewTransform::Preview));
     opened_.file = order.file;
     return {};
   }

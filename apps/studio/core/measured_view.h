@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A measured flare (.flare.toml) as its panel shows it: a kymograph, which is the row of pixels through the optical
-// centre for each angle of the light; the picture at one angle; its ghosts' parameters over the angle. Read and rendered
-// in the background. Thread-safety: as LatestJob; the rest is pure.
+// centre for each angle of the light; the picture at one angle; its ghosts' parameters over the angle. Read and
+// rendered in the background. Thread-safety: as LatestJob; the rest is pure.
 #pragma once
 
 #include <array>

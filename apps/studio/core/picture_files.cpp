@@ -34,9 +34,8 @@ Result<void> write_on_plate(OutputFile& file, const DrawnPicture& drawn, const C
   const bool is_usual = plate.source == nullptr && (extension == ".exr" || extension == ".png");
   const PlateColour colour{drawn.input.reference.input_space, "", drawn.input.reference.config};
   if (!is_usual) return write_plate(file, picture, plate.source, colour, context);
-  return drawn.has_lights
-             ? write_photograph(file, picture, drawn.input.values, context)
-             : copy_photograph(file, drawn.input.reference.file, picture, drawn.input.values, context);
+  return drawn.has_lights ? write_photograph(file, picture, drawn.input.values, context)
+                          : copy_photograph(file, drawn.input.reference.file, picture, drawn.input.values, context);
 }
 
 }  // namespace
@@ -61,9 +60,8 @@ Result<void> write_drawn(OutputFile& file, const DrawnPicture& drawn, const Cont
   if (drawn.input.plate) return write_on_plate(file, drawn, context);
   const params::Values& values = drawn.input.values;
   if (extension_of(file.destination()) == ".png")
-    return write_preview_png(file, drawn.flare,
-                             params::preview_settings(values, drawn.flare, params::DefaultExposure::Automatic),
-                             context);
+    return write_preview_png(
+        file, drawn.flare, params::preview_settings(values, drawn.flare, params::DefaultExposure::Automatic), context);
   Picture picture = contrejour::picture_of(drawn.flare);
   set_colour_space(picture, params::colour_space(values, ColourSpace::Rec709));
   set_pixel_aspect(picture, values.real("pixel-aspect").value_or(squeeze_of(*drawn.input.lens)));

@@ -86,8 +86,9 @@ class PictureWorker {
     PictureAnswer answer;
     answer.revision = order.revision;
     answer.has_plate = order.plate != nullptr;
-    answer.space = params::colour_space(values, order.plate ? colour_space_of(order.plate->picture).value_or(ColourSpace::Rec709)
-                                                            : ColourSpace::Rec709);
+    answer.space =
+        params::colour_space(values, order.plate ? colour_space_of(order.plate->picture).value_or(ColourSpace::Rec709)
+                                                 : ColourSpace::Rec709);
     const auto ready = set_renderer(order, values);
     auto picture = ready ? draw() : Result<PlatePictures::Picture>(tl::unexpected(ready.error()));
     if (picture) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the flare for the viewport: for each request first a draft, and after 150 ms of rest the picture itself,
-// which is that of `contrejour render`, bit for bit, or with a plate that of `contrejour apply`. The next request stops the picture, but never a draft: a light
-// that is dragged would else have none. Drafts are coarser (size, error) the longer they take, so that they keep up.
-// Thread-safety: as of LatestJob.
+// which is that of `contrejour render`, bit for bit, or with a plate that of `contrejour apply`. The next request stops
+// the picture, but never a draft: a light that is dragged would else have none. Drafts are coarser (size, error) the
+// longer they take, so that they keep up. Thread-safety: as of LatestJob.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 #include "contrejour/expert/ghost_id.h"
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/plate.h"
 #include "contrejour/image.h"
 #include "contrejour/lens.h"
-#include "contrejour/expert/plate.h"
 #include "studio/core/latest_job.h"
 #include "studio/core/star_layers.h"
 

@@ -81,8 +81,7 @@ const Image& PlatePictures::reduced(int width, int height) {
 
 Result<PlatePictures::Picture> PlatePictures::draft(const std::shared_ptr<const Plate>& plate, const LensState& lens,
                                                     const params::Values& values, Renderer& renderer,
-                                                    const Context& context,
-                                                    const std::function<void(Image&)>& change) {
+                                                    const Context& context, const std::function<void(Image&)>& change) {
   if (plate_ != plate) {
     plate_ = plate;
     reduced_.clear();

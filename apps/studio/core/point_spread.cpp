@@ -49,8 +49,8 @@ Result<PointSpreadAnswer> answer_of(const PointSpreadOrder& order, const Context
   const auto spread = point_spread(order, context);
   if (!spread) return tl::unexpected(spread.error());
   const double width_um = kSpreadSide * spread_pitch_mm(*order.lens) * kMicrometresPerMillimetre;
-  return PointSpreadAnswer{picture_of_mask(pupil->mask), logarithmic(*spread), pupil->open_fraction,
-                           pupil->radius,                width_um,             {}};
+  return PointSpreadAnswer{
+      picture_of_mask(pupil->mask), logarithmic(*spread), pupil->open_fraction, pupil->radius, width_um, {}};
 }
 
 }  // namespace

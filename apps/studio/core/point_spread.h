@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pupil and the point spread of one light of a document, as pictures: what the iris panel shows. The point spread
-// is the image of a point in the light's place by diffraction, finer than the picture's pixels. Thread-safety: as LatestJob; the rest is pure.
+// is the image of a point in the light's place by diffraction, finer than the picture's pixels. Thread-safety: as
+// LatestJob; the rest is pure.
 #pragma once
 
 #include <cstdint>

@@ -58,7 +58,9 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
 
 std::string colour_html(const Rgb& rgb) {
   const double brightest = std::fmax(1e-30, std::fmax(rgb[0], std::fmax(rgb[1], rgb[2])));
-  const auto code = [&](double v) { return static_cast<int>(255 * std::pow(std::clamp(v / brightest, 0.0, 1.0), 1 / 2.2)); };
+  const auto code = [&](double v) {
+    return static_cast<int>(255 * std::pow(std::clamp(v / brightest, 0.0, 1.0), 1 / 2.2));
+  };
   return fmt::format("<i style=\"background:rgb({},{},{})\"></i>", code(rgb[0]), code(rgb[1]), code(rgb[2]));
 }
 
@@ -85,9 +87,9 @@ std::string section_html(const ExportOrder& order) {
 std::string ghosts_html(const ExportOrder& order) {
   double all = 0;
   for (const GhostFigures& f : order.figures) all += f.relative_flux;
-  std::string html = fmt::format(
-      "<h2>Ghosts</h2>\n<p>{} ghosts carry {:.2f} per cent of the light; the brightest:</p>\n<table>\n",
-      order.figures.size(), 100 * all);
+  std::string html =
+      fmt::format("<h2>Ghosts</h2>\n<p>{} ghosts carry {:.2f} per cent of the light; the brightest:</p>\n<table>\n",
+                  order.figures.size(), 100 * all);
   html += row({"", "Ghost", "Colour", "Flux, per cent", "Peak", "Size, pixels", "In focus"}, "th");
   for (std::size_t k = 0; k < std::min(kReportedGhosts, order.figures.size()); ++k) {
     const GhostFigures& f = order.figures[k];
@@ -107,7 +109,8 @@ std::string prescription_html(const ExportOrder& order) {
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
     std::vector<std::string> cells = {fmt::format("{}", k + 1)};
     for (const LensColumn column : kLensColumns) cells.push_back(markup_text(cell_text(lens, k, column)));
-    const bool reflects = k < order.lens->surfaces.size() && !(order.lens->surfaces[k].before == order.lens->surfaces[k].after);
+    const bool reflects =
+        k < order.lens->surfaces.size() && !(order.lens->surfaces[k].before == order.lens->surfaces[k].after);
     cells.push_back(reflects ? fmt::format("{} {:.2f} %", colour_html(reflected_rgb(order.lens->surfaces[k])),
                                            100 * mean_reflectance(order.lens->surfaces[k]))
                              : "");
@@ -120,8 +123,8 @@ std::string settings_html(const Document& document) {
   std::string html = "<h2>Settings</h2>\n<p>What is not listed has its default.</p>\n<table>\n";
   html += row({"Parameter", "Value", "Unit"}, "th");
   for (const auto& [name, texts] : document.texts)
-    html += row({name, markup_text(fmt::format("{}", fmt::join(texts, " "))),
-                 markup_text(params::parameter(name).unit)});
+    html +=
+        row({name, markup_text(fmt::format("{}", fmt::join(texts, " "))), markup_text(params::parameter(name).unit)});
   return html + "</table>\n";
 }
 

@@ -30,7 +30,9 @@ Result<Prescription> with_vertex(const Prescription& lens, std::size_t row, doub
   const bool is_last = row + 1 == lens.surfaces.size();
   if (is_zoom_gap(lens, row - 1) || is_zoom_gap(lens, row))
     return invalid_argument("this gap is another one at each focal length; type it in the lens file");
-  const auto moved = [&](std::size_t k, double by) { return fmt::format("{:.4f}", lens.surfaces[k].thickness_mm + by); };
+  const auto moved = [&](std::size_t k, double by) {
+    return fmt::format("{:.4f}", lens.surfaces[k].thickness_mm + by);
+  };
   auto before = with_cell(lens, row - 1, LensColumn::Thickness, moved(row - 1, along_mm));
   if (!before || is_last) return before;
   return with_cell(*before, row, LensColumn::Thickness, moved(row, -along_mm));

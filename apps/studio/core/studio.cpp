@@ -23,8 +23,8 @@ bool leaves_stars_alone(std::string_view name) {
 std::vector<StarLight> stars_of(const Document& document) {
   if (document.texts.contains("light")) return {};
   // Lights of the plate have no handles, and its gain is not that of the values.
-  if (document.has_plate() && (document.text("detect") == "on" || document.texts.contains("gain") ||
-                               document.texts.contains("stops")))
+  if (document.has_plate() &&
+      (document.text("detect") == "on" || document.texts.contains("gain") || document.texts.contains("stops")))
     return {};
   std::string common = fmt::format("{}", static_cast<const void*>(document.lens.get()));
   for (const auto& [name, texts] : document.texts)
@@ -48,8 +48,7 @@ Studio::Studio(std::string how_opened, Document first, StudioSettings settings)
       plates_(settings.wake), detection_job_(detection_work(), settings.wake),
       compare_job_(compare_work(), settings.wake), thumbnail_job_(thumbnail_work(), settings.wake),
       point_spread_job_(point_spread_work(), settings.wake), frames_job_(frames_work(), settings.wake),
-      cache_job_(cache_work(frame_cache_), settings.wake),
-      measured_job_(measured_work(), settings.wake) {
+      cache_job_(cache_work(frame_cache_), settings.wake), measured_job_(measured_work(), settings.wake) {
   auto lens = params::lens_of(*document().lens, document().values());
   if (!lens) {
     refuse(lens.error(), "");
@@ -194,6 +193,7 @@ void Studio::update() {
   take_display();
   if (auto figures = figures_job_.take(); figures && figures->error.empty()) {
     figures_ = std::move(figures->figures);
+    footprints_ = std::move(figures->footprints);
     figures_revision_ = figures->revision;
     ++changes_;
   }

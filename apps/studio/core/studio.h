@@ -60,8 +60,8 @@ class Studio {
   // Reads it in the background; a step of the history once it is there.
   bool open_plate(const std::string& file);
   void close_plate();
-  // Finds the plate's lights in the background; a step of the history that puts them in place of the lights. False: there
-  // is no plate.
+  // Finds the plate's lights in the background; a step of the history that puts them in place of the lights. False:
+  // there is no plate.
   bool detect_lights();
   bool save_look(const std::string& name);  // among the user's own
   bool recover(const LostWork& work);
@@ -105,6 +105,7 @@ class Studio {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   [[nodiscard]] std::uint64_t shown_count() const { return shown_count_; }  // of pictures taken so far
   [[nodiscard]] const std::vector<GhostFigures>& figures() const { return figures_; }
+  [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // of the first figures
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
   [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate); }
@@ -162,6 +163,7 @@ class Studio {
   DisplayAnswer shown_;
   PictureAnswer picture_;
   std::vector<GhostFigures> figures_;
+  std::vector<GhostFootprint> footprints_;
   SectionAnswer section_;
   std::vector<Snapshot> snapshots_;
   std::size_t snapshots_taken_ = 0;

@@ -98,8 +98,8 @@ bool Studio::take_snapshot() {
     return refuse({ErrorCode::InvalidArgument, fmt::format("remove one of the {} snapshots first", kMostSnapshots), {}},
                   "");
   auto thumbnail = std::make_shared<const Thumbnail>(reduced_codes(shown_.rgba, shown_.width, shown_.height));
-  snapshots_.push_back({fmt::format("Snapshot {}", ++snapshots_taken_), history_.shared_now(), picture_.image,
-                        std::move(thumbnail)});
+  snapshots_.push_back(
+      {fmt::format("Snapshot {}", ++snapshots_taken_), history_.shared_now(), picture_.image, std::move(thumbnail)});
   if (compare_.mode == CompareMode::Off) compare_.snapshot = snapshots_.size() - 1;
   say(fmt::format("took snapshot {}", snapshots_taken_));
   post_comparison();

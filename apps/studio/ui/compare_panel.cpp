@@ -75,7 +75,8 @@ void draw_snapshot(Ui& ui, std::size_t index, TextureSet& textures, float height
   ui.registry.record(fmt::format("compare/snapshot/{}", index + 1), chosen ? "chosen" : "");
   tip("Compare the picture with this one");
   const auto stamp = reinterpret_cast<std::uintptr_t>(&small);
-  const Texture& texture = textures.get(fmt::format("snapshot/{}", index), stamp, small.width, small.height, small.rgba);
+  const Texture& texture =
+      textures.get(fmt::format("snapshot/{}", index), stamp, small.width, small.height, small.rgba);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture.id(), at, end);
   list.AddRect(at, end, chosen ? colours::kAccent : colours::kLine, 0, 0, scaled(chosen ? 2 : 1));

@@ -125,13 +125,8 @@ void draw_content(Ui& ui) {
 }
 
 const char* title_of(Dialog dialog) {
-  static constexpr const char* titles[] = {"",
-                                           "Open a lens or a session",
-                                           "Open a plate",
-                                           "Save the session",
-                                           "Export",
-                                           "Recover unsaved work",
-                                           "Unsaved changes"};
+  static constexpr const char* titles[] = {"",       "Open a lens or a session", "Open a plate",   "Save the session",
+                                           "Export", "Recover unsaved work",     "Unsaved changes"};
   return titles[static_cast<std::size_t>(dialog)];
 }
 

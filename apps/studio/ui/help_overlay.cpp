@@ -36,15 +36,17 @@ void draw_help_overlay(Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##help", nullptr, flags);
   ImGui::SetWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(scaled(8), scaled(2)));
   ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  for (const char* group : {"Files", "History", "Lights", "Ghosts"}) draw_group(group);
+  for (const char* group : {"Files", "History", "Lights"}) draw_group(group);
   ImGui::TableNextColumn();
-  for (const char* group : {"View", "Compare", "Frames"}) draw_group(group);
+  for (const char* group : {"Ghosts", "View", "Compare"}) draw_group(group);
   ImGui::TableNextColumn();
-  draw_group("Panels");
+  for (const char* group : {"Frames", "Panels"}) draw_group(group);
   ImGui::EndTable();
+  ImGui::PopStyleVar();
   ImGui::TextDisabled(
       "Wheel: zoom.  Right button: pan.  Click: the ghost there.  Ctrl+click a number to type it.  Esc closes this.");
   ui.registry.record("help");

@@ -29,9 +29,11 @@ void draw_tabs(WidgetRegistry& registry, const char* bar, const std::array<const
   // In a narrow panel the tabs are narrower, so that none is cut off.
   const ImGuiStyle& style = ImGui::GetStyle();
   float width = 0;
-  for (const char* name : names) width += ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x + style.ItemInnerSpacing.x;
+  for (const char* name : names)
+    width += ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x + style.ItemInnerSpacing.x;
   const bool is_narrow = width > ImGui::GetContentRegionAvail().x;
-  if (is_narrow) ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5F * style.FramePadding.x, style.FramePadding.y));
+  if (is_narrow)
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5F * style.FramePadding.x, style.FramePadding.y));
   const bool is_open = ImGui::BeginTabBar(bar);
   const auto end_style = [&] {
     if (is_narrow) ImGui::PopStyleVar();
@@ -98,7 +100,8 @@ void Interface::draw_side(float width, float height) {
 void Interface::draw_bottom(float width, float height) {
   Ui ui{studio_, state_, registry_};
   ImGui::BeginChild("##bottom", {width, height}, false, kChildFlags);
-  static constexpr std::array names = {"Section", "Prescription", "Coatings", "Iris", "Timeline", "Compare", "Measured"};
+  static constexpr std::array names = {"Section",  "Prescription", "Coatings", "Iris",
+                                       "Timeline", "Compare",      "Measured"};
   draw_tabs(registry_, "##bottom-tabs", names, state_.bottom, state_.bottom_was_chosen);
   if (state_.bottom != BottomTab::Iris) studio_.want_point_spread(false);
   switch (state_.bottom) {

@@ -60,8 +60,8 @@ void draw_pictures(Ui& ui, TextureSet& textures) {
   const PointSpreadAnswer& spread = ui.studio.point_spread();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float side = std::max(
-      scaled(60), std::min(0.5F * (room.x - gap), room.y - ImGui::GetTextLineHeightWithSpacing() - scaled(4)));
+  const float side =
+      std::max(scaled(60), std::min(0.5F * (room.x - gap), room.y - ImGui::GetTextLineHeightWithSpacing() - scaled(4)));
   const bool there = !spread.pupil.empty();
   const auto texture_of = [&](const char* name, const std::vector<std::uint32_t>& rgba, int pixels) -> const Texture* {
     return there ? &textures.get(name, ui.studio.point_spread_count(), pixels, pixels, rgba) : nullptr;

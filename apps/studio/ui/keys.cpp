@@ -153,8 +153,7 @@ constexpr std::array kKeys = {
     KeyCommand{"tab", "Tab", "View", "panels on or off",
                [](Ui& ui) { ui.state.shows_panels = !ui.state.shows_panels; }},
     KeyCommand{"c", "C", "Compare", "take a snapshot", [](Ui& ui) { ui.studio.take_snapshot(); }},
-    KeyCommand{"w", "W", "Compare", "wipe to the snapshot",
-               [](Ui& ui) { set_compare_mode(ui, CompareMode::Wipe); }},
+    KeyCommand{"w", "W", "Compare", "wipe to the snapshot", [](Ui& ui) { set_compare_mode(ui, CompareMode::Wipe); }},
     KeyCommand{"d", "D", "Compare", "difference from the snapshot",
                [](Ui& ui) { set_compare_mode(ui, CompareMode::Difference); }},
     KeyCommand{"space", "Space", "Frames", "play, or stop", [](Ui& ui) { ui.studio.play(!ui.studio.is_playing()); }},
@@ -184,8 +183,8 @@ constexpr std::array kKeys = {
 // These move between widgets where a panel has the keyboard.
 bool belongs_to_viewport(const char* chord) {
   const std::string_view keys(chord);
-  return keys == "tab" || keys == "space" || keys == "home" || keys == "end" || keys.ends_with("left") || keys.ends_with("right") || keys.ends_with("up") ||
-         keys.ends_with("down");
+  return keys == "tab" || keys == "space" || keys == "home" || keys == "end" || keys.ends_with("left") ||
+         keys.ends_with("right") || keys.ends_with("up") || keys.ends_with("down");
 }
 
 bool is_modifier(int key) {

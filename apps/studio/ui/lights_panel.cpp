@@ -105,8 +105,8 @@ bool draw_light(Ui& ui, std::size_t index) {
   position_field(ui, index);
   brightness_slider(ui, index);
   static constexpr LightField kFields[] = {
-      {"value", "1", "The sum of its direct image, or R,G,B, or 12stops, 100000lx, 800cd, 1.6e9nits", &LightEntry::value,
-       LightPart::Value},
+      {"value", "1", "The sum of its direct image, or R,G,B, or 12stops, 100000lx, 800cd, 1.6e9nits",
+       &LightEntry::value, LightPart::Value},
       {"colour", "D65", "D65, A, a temperature such as 3200K, led, sodium, R,G,B", &LightEntry::colour,
        LightPart::Colour},
       {"size", "0", "Angular diameter in degrees; 0.53 for the sun; 0: a point", &LightEntry::size, LightPart::Size},

@@ -23,7 +23,8 @@ void draw_tile_picture(Ui& ui, const Look& look, TextureSet& textures, ImVec2 mi
   }
   const Thumbnail& thumbnail = *found->second;
   const auto stamp = reinterpret_cast<std::uintptr_t>(&thumbnail);
-  const Texture& texture = textures.get("look/" + look.source, stamp, thumbnail.width, thumbnail.height, thumbnail.rgba);
+  const Texture& texture =
+      textures.get("look/" + look.source, stamp, thumbnail.width, thumbnail.height, thumbnail.rgba);
   list.AddImageRounded(texture.id(), min, max, {0, 0}, {1, 1}, IM_COL32_WHITE, scaled(4));
 }
 
@@ -81,7 +82,8 @@ void draw_saving(Ui& ui) {
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   ui.registry.record("looks/name", ui.state.look_name);
   ImGui::SameLine();
-  const bool saves = button(ui, "looks/save", "Save look", "All settings but lights, size and exposure", {button_width, 0});
+  const bool saves =
+      button(ui, "looks/save", "Save look", "All settings but lights, size and exposure", {button_width, 0});
   if ((saves || entered) && ui.studio.save_look(ui.state.look_name)) ui.state.look_name.clear();
 }
 

@@ -22,7 +22,8 @@ void draw_kymograph(Ui& ui, TextureSet& textures, ImVec2 size) {
   const ImVec2 at = ImGui::GetCursorScreenPos(), end = {at.x + size.x, at.y + size.y};
   ImGui::InvisibleButton("##kymograph", size);
   ui.registry.record("measured/kymograph", fmt::format("{:.3f}", measured.angle_deg));
-  tip("A row for each angle of the light, from left of the axis to right of it: ghosts are slanted lines. Drag to choose "
+  tip("A row for each angle of the light, from left of the axis to right of it: ghosts are slanted lines. Drag to "
+      "choose "
       "the angle.");
   const double most = largest_angle_deg(*measured.flare);
   if (ImGui::IsItemActive()) {
@@ -30,8 +31,7 @@ void draw_kymograph(Ui& ui, TextureSet& textures, ImVec2 size) {
     ui.studio.choose_measured_angle(most * (2 * part - 1));
   }
   const auto stamp = reinterpret_cast<std::uintptr_t>(measured.kymograph.get());
-  const Texture& texture =
-      textures.get("kymograph", stamp, kKymographWidth, kKymographHeight, *measured.kymograph);
+  const Texture& texture = textures.get("kymograph", stamp, kKymographWidth, kKymographHeight, *measured.kymograph);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture.id(), at, end);
   list.AddRect(at, end, colours::kLine);
@@ -78,7 +78,8 @@ void draw_ghost_curves(Ui& ui, ImVec2 size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
   ui.registry.record("measured/curves", fmt::format("{}", curves.size()));
-  const ImVec2 min = {at.x + scaled(48), at.y + scaled(6)}, max = {at.x + size.x - scaled(6), at.y + size.y - scaled(20)};
+  const ImVec2 min = {at.x + scaled(48), at.y + scaled(6)},
+               max = {at.x + size.x - scaled(6), at.y + size.y - scaled(20)};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto screen = [&](Vec2 p) {
     return ImVec2{min.x + (max.x - min.x) * static_cast<float>(p.x / range.angle),
@@ -114,9 +115,10 @@ void draw_measured_panel(Ui& ui, TextureSet& textures) {
   const MeasuredAnswer& measured = ui.studio.measured();
   if (!measured.flare) {
     ImGui::PushTextWrapPos();
-    ImGui::TextDisabled("%s", measured.error.empty()
-                                  ? "Open a measured flare (NAME.flare.toml, from `contrejour measure fit`) or drop it here."
-                                  : measured.error.c_str());
+    ImGui::TextDisabled("%s",
+                        measured.error.empty()
+                            ? "Open a measured flare (NAME.flare.toml, from `contrejour measure fit`) or drop it here."
+                            : measured.error.c_str());
     ImGui::PopTextWrapPos();
     return;
   }

@@ -37,13 +37,19 @@ void draw_number(Ui& ui, const Parameter& p, const std::string& shown, float wid
   const bool slides = p.maximum - p.minimum <= kWidestSlider && std::isfinite(p.maximum - p.minimum);
   const auto low = static_cast<float>(std::max(p.minimum, -1e9)), high = static_cast<float>(std::min(p.maximum, 1e9));
   const char* format = !value ? "auto" : whole ? "%.0f" : "%.4g";
+  const std::string key = fmt::format("parameter/{}", p.name);
+  NumberDrag& drag = ui.state.number_drag;
+  if (drag.id == key) number = drag.value;
   ImGui::SetNextItemWidth(width);
   const float speed = whole ? 0.1F : std::max(1e-4F, 0.005F * std::fabs(number));
   const bool changed =
       slides && !whole && p.maximum - p.minimum <= 100
           ? ImGui::SliderFloat("##value", &number, low, high, format, ImGuiSliderFlags_AlwaysClamp)
           : ImGui::DragFloat("##value", &number, speed, low, high, format, ImGuiSliderFlags_AlwaysClamp);
-  const std::string key = fmt::format("parameter/{}", p.name);
+  if (ImGui::IsItemActive())
+    drag = {key, number};
+  else if (drag.id == key)
+    drag = {};
   if (changed) set(ui, p, whole ? fmt::format("{:.0f}", number) : fmt::format("{:.5g}", number), key);
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
 }
@@ -132,21 +138,20 @@ void key_button(Ui& ui, const std::string& id, const TrackId& track) {
   const bool pressed = ImGui::InvisibleButton("##key", {scaled(20), height});
   ImGui::PopID();
   ui.registry.record(id, here ? "key" : keys != nullptr ? "keys" : "");
-  tip(here                ? "Remove the key of this frame"
+  tip(here              ? "Remove the key of this frame"
       : keys != nullptr ? "Set a key at this frame"
                         : "Begin to change this over the frames: a key at this frame");
   const ImVec2 middle = {at.x + scaled(10), at.y + 0.5F * height};
-  const ImVec2 points[] = {{middle.x, middle.y - r}, {middle.x + r, middle.y}, {middle.x, middle.y + r},
-                           {middle.x - r, middle.y}};
+  const ImVec2 points[] = {
+      {middle.x, middle.y - r}, {middle.x + r, middle.y}, {middle.x, middle.y + r}, {middle.x - r, middle.y}};
   const ImU32 colour = ImGui::IsItemHovered() ? colours::kText : keys != nullptr ? colours::kAccent : colours::kLine;
   if (here)
     ImGui::GetWindowDrawList()->AddConvexPolyFilled(points, 4, colour);
   else
     ImGui::GetWindowDrawList()->AddPolyline(points, 4, colour, ImDrawFlags_Closed, scaled(1.2F));
   if (!pressed) return;
-  ui.studio.edit(here ? "remove key" : "set key", "", [&](const Document& d) {
-    return here ? without_key(d, track, frame) : with_key(d, track, frame);
-  });
+  ui.studio.edit(here ? "remove key" : "set key", "",
+                 [&](const Document& d) { return here ? without_key(d, track, frame) : with_key(d, track, frame); });
 }
 
 }  // namespace contrejour::studio

@@ -27,8 +27,7 @@ bool is_of_use(const Ui& ui, const Parameter& p) {
 std::vector<std::string_view> groups(const Ui& ui) {
   std::vector<std::string_view> names;
   for (const Parameter& p : params::all_parameters())
-    if (is_of_use(ui, p) && std::find(names.begin(), names.end(), p.group) == names.end())
-      names.push_back(p.group);
+    if (is_of_use(ui, p) && std::find(names.begin(), names.end(), p.group) == names.end()) names.push_back(p.group);
   return names;
 }
 
@@ -50,8 +49,7 @@ void draw_parameters_panel(Ui& ui) {
     ImGui::PopFont();
     if (!open) continue;
     for (const Parameter& p : params::all_parameters())
-      if (p.group == group && is_of_use(ui, p) && fits_filter(p, ui.state.parameter_filter))
-        draw_parameter(ui, p);
+      if (p.group == group && is_of_use(ui, p) && fits_filter(p, ui.state.parameter_filter)) draw_parameter(ui, p);
   }
   ImGui::EndChild();
 }

@@ -64,7 +64,8 @@ void draw_light_key(Ui& ui) {
 void draw_controls(Ui& ui) {
   Studio& studio = ui.studio;
   const bool plays = studio.is_playing();
-  if (button(ui, "timeline/play", plays ? "Stop" : "Play", "Play the frames that are rendered (Space)", {scaled(58), 0}))
+  if (button(ui, "timeline/play", plays ? "Stop" : "Play", "Play the frames that are rendered (Space)",
+             {scaled(58), 0}))
     studio.play(!plays);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
@@ -140,9 +141,8 @@ void drag_key(Ui& ui, const TimelineMap& map) {
   }
   const int to = map.frame_at(ImGui::GetIO().MousePos.x);
   if (to == drag.frame) return;
-  if (ui.studio.edit("move key", "timeline/key", [&](const Document& d) {
-        return with_key_moved(d, drag.track, drag.frame, to);
-      }))
+  if (ui.studio.edit("move key", "timeline/key",
+                     [&](const Document& d) { return with_key_moved(d, drag.track, drag.frame, to); }))
     drag.frame = to;
 }
 

@@ -93,7 +93,8 @@ void draw_toolbar(Ui& ui) {
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(250, 196, 118, 255));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, colours::kAccent);
   ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(24, 22, 18, 255));
-  const bool exports = button(ui, "toolbar/export", "Export", "The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
+  const bool exports =
+      button(ui, "toolbar/export", "Export", "The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
   ImGui::PopStyleColor(4);
   if (exports) open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind));
   ImGui::SameLine();

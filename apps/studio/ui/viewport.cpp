@@ -64,7 +64,8 @@ void use_wheel_and_pan(Ui& ui, const ViewportMap& map, bool is_hovered) {
 
 // A click selects the brightest ghost there; further clicks at the same place the next ones.
 void select_under_mouse(Ui& ui, const ViewportMap& map) {
-  const auto under = ghosts_under(ui.studio.figures(), map.pixel_of_screen(ImGui::GetIO().MousePos));
+  const auto under =
+      ghosts_under(ui.studio.figures(), map.pixel_of_screen(ImGui::GetIO().MousePos), ui.studio.footprints());
   if (under.empty()) {
     ui.studio.select_ghost(std::nullopt);
     return;

@@ -71,6 +71,12 @@ struct KeyDrag {
   int frame = 0;
 };
 
+// A number that is dragged: it goes on through values that are refused, such as an iris of one blade.
+struct NumberDrag {
+  std::string id;  // empty: none
+  float value = 0;
+};
+
 // The state of the interface that is neither document nor view.
 struct InterfaceState {
   SideTab side = SideTab::Ghosts;
@@ -90,6 +96,7 @@ struct InterfaceState {
   int measured_curve = 0;  // as GhostCurve
   std::string look_name;  // typed for a look to be saved
   KeyDrag key_drag;
+  NumberDrag number_drag;
   SurfaceDrag surface_drag;
   bool drags_wipe = false;
   bool viewport_has_keys = true;  // arrows and Tab are the viewport's

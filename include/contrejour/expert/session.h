@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session: one picture of one lens as the studio saves it, complete in one file (docs/formats/session.md): the lens
-// with its changes, every value that the user has set, lights and size included, its plate and its keys. Members that this version does not
-// know are kept, so that a file can pass through an older program.
-// Errors: Parse with file and line; Io. Thread-safety: plain values, pure functions.
+// with its changes, every value that the user has set, lights and size included, its plate and its keys. Members that
+// this version does not know are kept, so that a file can pass through an older program. Errors: Parse with file and
+// line; Io. Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <filesystem>

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The footprint of a ghost in the picture by traced rays: a grid over the part of the entrance plane whose rays get
+// through, as quadrilaterals on the sensor. Accuracy: borders to a cell of the grid, a sixteenth of the ghost's pupil.
+// Thread-safety: plain values, pure functions.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/frame.h"
+#include "contrejour/ghost_figures.h"
+#include "contrejour/light.h"
+
+namespace contrejour::studio {
+
+struct GhostFootprint {
+  Ghost ghost;
+  std::vector<std::array<Vec2, 4>> cells_px;  // of the frame; empty: no ray of the grid gets through
+  std::vector<std::array<Vec2, 2>> border_px;  // sides of cells that no two cells share
+
+  // Whether a cell contains the point, or it is nearer to the ghost than this.
+  [[nodiscard]] bool contains(Vec2 point_px, double reach_px) const;
+};
+
+[[nodiscard]] GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light,
+                                          const Frame& frame);
+
+// Of the first ghosts, as many as are traced within the time that a hand does not notice.
+inline constexpr std::size_t kMostFootprints = 40;
+[[nodiscard]] std::vector<GhostFootprint> footprints_of(const LensState& lens, const std::vector<GhostFigures>& figures,
+                                                        const Light& light, const Frame& frame, const Context& context);
+
+}  // namespace contrejour::studio
