@@ -173,6 +173,10 @@ TEST_CASE("the point spread has the arms of the iris, and dirt dims the pupil") 
     return std::hypot(c, s);
   };
   CHECK(strength(6) > 3 * strength(5));
+  // Its middle follows the light over the field.
+  const PointSpreadAnswer aside = answer_of(*with_light_at(d, 0, {0.22, 0.25}));
+  const auto middle = aside.spread[static_cast<std::size_t>(kSpreadSide / 2 * kSpreadSide + kSpreadSide / 2)];
+  CHECK((middle & 255U) > 200);
   d = *with_value(*with_value(d, "dust", "100"), "dust-size", "0.3");
   CHECK(answer_of(d).open_fraction < 0.98);
 }

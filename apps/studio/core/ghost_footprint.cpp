@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "contrejour/expert/trace.h"
 
@@ -20,21 +21,28 @@ struct Window {
   }
 };
 
-// Where the rays of a grid land; none where a ray does not get through.
-using Landings = std::vector<std::optional<Vec2>>;
+struct Landing {
+  bool is_ray = false;  // it reaches the sensor, if nothing blocks it
+  Vec2 sensor_mm;
+  double blocked = 1;  // <= 0: it gets through
+  [[nodiscard]] bool is_lit() const { return is_ray && blocked <= 0; }
+};
+using Landings = std::vector<Landing>;
 
-std::size_t index_of(int column, int row) { return static_cast<std::size_t>(row * kSide + column); }
+const Landing& at(const Landings& landings, int column, int row) {
+  return landings[static_cast<std::size_t>(row * kSide + column)];
+}
 
 Landings land(const OpticalPath& path, const LensState& lens, const LightSource& source, double z_mm,
               const Window& window) {
-  Landings landings(static_cast<std::size_t>(kSide) * kSide);
+  Landings landings;
   for (int row = 0; row < kSide; ++row)
     for (int column = 0; column < kSide; ++column) {
-      const Vec2 at = window.at(column, row);
-      const Vec3 point{at.x, at.y, z_mm};
+      const Vec2 place = window.at(column, row);
+      const Vec3 point{place.x, place.y, z_mm};
       const TracedRay ray = trace(path, {point, source.direction_at(point)});
-      if (ray.status == RayStatus::Ok && blocked_by(ray, path, lens.iris) <= 0)
-        landings[index_of(column, row)] = ray.sensor_mm;
+      const bool is_ray = ray.status == RayStatus::Ok;
+      landings.push_back({is_ray, ray.sensor_mm, is_ray ? blocked_by(ray, path, lens.iris) : 1.0});
     }
   return landings;
 }
@@ -44,7 +52,7 @@ std::optional<Window> lit_part(const Landings& landings, const Window& window) {
   int left = kSide, right = -1, top = kSide, bottom = -1;
   for (int row = 0; row < kSide; ++row)
     for (int column = 0; column < kSide; ++column) {
-      if (!landings[index_of(column, row)]) continue;
+      if (!at(landings, column, row).is_lit()) continue;
       left = std::min(left, column);
       right = std::max(right, column);
       top = std::min(top, row);
@@ -55,29 +63,28 @@ std::optional<Window> lit_part(const Landings& landings, const Window& window) {
                 window.at(std::min(kSide - 1, right + 1), std::min(kSide - 1, bottom + 1))};
 }
 
-bool is_lit(const Landings& landings, int column, int row) {
-  if (column < 0 || row < 0 || column + 1 >= kSide || row + 1 >= kSide) return false;
-  return landings[index_of(column, row)] && landings[index_of(column + 1, row)] &&
-         landings[index_of(column, row + 1)] && landings[index_of(column + 1, row + 1)];
-}
-
-void add_cell(const Landings& landings, int column, int row, const Frame& frame, GhostFootprint& footprint) {
-  const auto corner = [&](int dx, int dy) {
-    return frame.pixel_from_sensor(*landings[index_of(column + dx, row + dy)]);
-  };
-  const std::array<Vec2, 4> cell = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-  footprint.cells_px.push_back(cell);
-  static constexpr std::array<std::array<int, 2>, 4> kNeighbours = {{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
-  for (std::size_t k = 0; k < 4; ++k)
-    if (!is_lit(landings, column + kNeighbours[k][0], row + kNeighbours[k][1]))
-      footprint.border_px.push_back({cell[k], cell[(k + 1) % 4]});
+// The lit part of a cell: its lit corners, and the points between a lit and a blocked one where the border is.
+void add_cell(const std::array<const Landing*, 4>& corners, const Frame& frame, GhostFootprint& footprint) {
+  std::vector<Vec2> polygon, crossings;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Landing &here = *corners[k], &next = *corners[(k + 1) % corners.size()];
+    if (here.is_lit()) polygon.push_back(frame.pixel_from_sensor(here.sensor_mm));
+    if (here.is_lit() == next.is_lit()) continue;
+    const double part = here.blocked / (here.blocked - next.blocked);
+    const Vec2 crossing = frame.pixel_from_sensor(here.sensor_mm + (next.sensor_mm - here.sensor_mm) * part);
+    polygon.push_back(crossing);
+    crossings.push_back(crossing);
+  }
+  if (polygon.size() >= 3) footprint.cells_px.push_back(std::move(polygon));
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+    footprint.border_px.push_back({crossings[k], crossings[k + 1]});
 }
 
 // By the crossings of a ray to the right, so that folded cells count, too.
-bool is_inside(const std::array<Vec2, 4>& cell, Vec2 p) {
+bool is_inside(const std::vector<Vec2>& cell, Vec2 p) {
   bool inside = false;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vec2 a = cell[k], b = cell[(k + 1) % 4];
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    const Vec2 a = cell[k], b = cell[(k + 1) % cell.size()];
     if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
   }
   return inside;
@@ -107,8 +114,13 @@ GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Lig
   if (!lit) return footprint;
   const Landings landings = land(path, lens, source, entrance.z_mm, *lit);
   for (int row = 0; row + 1 < kSide; ++row)
-    for (int column = 0; column + 1 < kSide; ++column)
-      if (is_lit(landings, column, row)) add_cell(landings, column, row, frame, footprint);
+    for (int column = 0; column + 1 < kSide; ++column) {
+      const std::array<const Landing*, 4> corners = {&at(landings, column, row), &at(landings, column + 1, row),
+                                                     &at(landings, column + 1, row + 1),
+                                                     &at(landings, column, row + 1)};
+      if (std::ranges::all_of(corners, [](const Landing* corner) { return corner->is_ray; }))
+        add_cell(corners, frame, footprint);
+    }
   return footprint;
 }
 

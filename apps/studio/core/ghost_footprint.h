@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The footprint of a ghost in the picture by traced rays: a grid over the part of the entrance plane whose rays get
-// through, as quadrilaterals on the sensor. Accuracy: borders to a cell of the grid, a sixteenth of the ghost's pupil.
-// Thread-safety: plain values, pure functions.
+// through, as polygons on the sensor. Cells that the border of the pupil crosses are cut there, by linear interpolation
+// of how far the rays at their corners are blocked. Accuracy: borders to a small part of a cell, which is a sixteenth
+// of the ghost's pupil; corners of the iris are cut off by as much. Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@ namespace contrejour::studio {
 
 struct GhostFootprint {
   Ghost ghost;
-  std::vector<std::array<Vec2, 4>> cells_px;  // of the frame; empty: no ray of the grid gets through
-  std::vector<std::array<Vec2, 2>> border_px;  // sides of cells that no two cells share
+  std::vector<std::vector<Vec2>> cells_px;  // polygons in the frame; empty: no ray of the grid gets through
+  std::vector<std::array<Vec2, 2>> border_px;  // pieces of the outline
 
   // Whether a cell contains the point, or it is nearer to the ghost than this.
   [[nodiscard]] bool contains(Vec2 point_px, double reach_px) const;

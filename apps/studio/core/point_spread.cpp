@@ -14,12 +14,17 @@ namespace contrejour::studio {
 namespace {
 
 constexpr double kDecades = 6.0;
+constexpr double kFarthestImage_mm = 1e3;  // from the axis: pixels are counted in 32 bits
 constexpr double kMillimetresPerNanometre = 1e-6, kMicrometresPerMillimetre = 1e3;
 constexpr std::chrono::milliseconds kRestBeforeSpread{80};
 constexpr int kSpreadThreads = 1;  // the picture comes first
 
 std::uint32_t packed_rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return r | g << 8U | b << 16U | 0xFF000000U;
+}
+
+int pixels_over(double length_mm, double pitch_mm) {
+  return std::max(kSpreadSide, static_cast<int>(std::ceil(length_mm / pitch_mm)));
 }
 
 // The mask's amplitude squared, scaled to its brightest; a mask may have more samples than the picture has pixels.
@@ -75,10 +80,17 @@ Result<Image> point_spread(const PointSpreadOrder& order, const Context& context
   settings.starburst.gain = 1;
   settings.glare = {};
   const Vec2 image_mm = chief_ray_image_point(*order.lens, light.source(), order.lens->design_wavelength_nm);
-  if (!std::isfinite(image_mm.x) || !std::isfinite(image_mm.y)) return invalid_argument("the light has no image");
+  if (!(std::hypot(image_mm.x, image_mm.y) < kFarthestImage_mm)) return invalid_argument("the light has no image");
+  // A window about the image in a picture that has such pixels over the whole sensor.
   Frame& frame = settings.frame;
-  frame = {kSpreadSide, kSpreadSide, 0, 0, kSpreadSide, kSpreadSide, spread_pitch_mm(*order.lens), {}};
-  frame.shift_mm = {-image_mm.x, -image_mm.y};
+  frame = {};
+  frame.width = frame.height = kSpreadSide;
+  frame.pixel_pitch_mm = spread_pitch_mm(*order.lens);
+  frame.full_width = pixels_over(order.lens->sensor_width_mm, frame.pixel_pitch_mm);
+  frame.full_height = pixels_over(order.lens->sensor_height_mm, frame.pixel_pitch_mm);
+  const Vec2 at = frame.pixel_from_sensor(image_mm);
+  frame.origin_x = static_cast<int>(std::floor(at.x)) - kSpreadSide / 2;
+  frame.origin_y = static_cast<int>(std::floor(at.y)) - kSpreadSide / 2;
   auto renderer = renderer_of(order.values, FlareSource(*order.lens));
   if (!renderer) return tl::unexpected(renderer.error());
   auto flare = render(*renderer, {&light, 1}, settings, context);

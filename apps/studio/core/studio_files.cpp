@@ -99,8 +99,9 @@ void Studio::take_detection(const DetectionAnswer& answer) {
     return take_problem("the plate has no bright areas; --threshold (Parameters, Light detection) sets how bright");
   const std::size_t count = answer.lights.size();
   const std::string name = fmt::format("detect {} {}", count, count == 1 ? "light" : "lights");
-  if (edit(name, "", [&](const Document& d) {
-        auto lit = with_lights(d, answer.lights);
+  if (edit(name, "", [&](Document d) {
+        d.animation.lights.clear();  // they are other lights
+        auto lit = with_lights(std::move(d), answer.lights);
         return lit ? with_value(std::move(*lit), "detect", "off") : lit;
       }))
     say(fmt::format("{} bright {} of the plate {} now {}", count, count == 1 ? "area" : "areas",
