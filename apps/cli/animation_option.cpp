@@ -2,7 +2,10 @@
 #include "cli/animation_option.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
+
+#include "contrejour/expert/session.h"
 
 namespace contrejour::cli {
 namespace {
@@ -15,6 +18,16 @@ std::string name_of_layer(const std::string& name) {
   return is_number ? "light" + name : name;
 }
 
+params::Values without_light_values(const params::Values& values) {
+  params::Values rest;
+  for (const params::Parameter& p : params::all_parameters()) {
+    if (p.name == "light" || p.name == "light-at") continue;
+    for (const std::string& text : values.list(p.name))
+      static_cast<void>(rest.set(p.name, text));  // it was checked before
+  }
+  return rest;
+}
+
 }  // namespace
 
 void add_animation_option(CLI::App& command, std::string& file) {
@@ -25,15 +38,29 @@ void add_animation_option(CLI::App& command, std::string& file) {
       ->group("Lights");
 }
 
-Result<FrameValues> FrameValues::create(const std::string& file, params::Values command_line, params::Values whole) {
+Result<FrameValues> FrameValues::create(const KeyFiles& files, params::Values command_line, params::Values whole) {
   FrameValues values;
   values.command_line_ = std::move(command_line);
   values.whole_ = std::move(whole);
-  if (file.empty()) return values;
-  auto animation = read_animation(std::filesystem::path(file));
-  if (!animation) return tl::unexpected(animation.error());
-  values.animation_ = std::move(*animation);
+  if (!files.lights.empty()) {
+    auto animation = read_animation(std::filesystem::path(files.lights));
+    if (!animation) return tl::unexpected(animation.error());
+    values.animation_ = std::move(*animation);
+  } else if (!files.session.empty()) {
+    if (auto ok = values.take_keys_of(files.session); !ok) return tl::unexpected(ok.error());
+  }
   return values;
+}
+
+Result<void> FrameValues::take_keys_of(const std::string& session_file) {
+  const auto session = read_session(std::filesystem::path(session_file));
+  if (!session) return tl::unexpected(session.error());
+  if (session->animation.empty()) return {};
+  auto animation = read_animation(session->animation, session_file);
+  if (!animation) return tl::unexpected(animation.error());
+  if (!animation->lights.empty()) whole_ = command_line_.over(without_light_values(whole_));
+  animation_ = std::move(*animation);
+  return {};
 }
 
 params::Values FrameValues::at(int frame) const {

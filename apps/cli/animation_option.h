@@ -17,12 +17,18 @@ namespace contrejour::cli {
 
 void add_animation_option(CLI::App& command, std::string& file);
 
+// Where keys come from: a file of --lights, and the session whose frames are asked for. Either may be empty.
+struct KeyFiles {
+  std::string lights, session;
+};
+
 // The values of every frame. The command line overrides the file, and the file overrides the preset; lights of the
 // command line and of the file are added up.
 class FrameValues {
  public:
-  // file: of --lights, or empty. command_line: as given; whole: with the preset's values too.
-  [[nodiscard]] static Result<FrameValues> create(const std::string& file, params::Values command_line,
+  // command_line: as given; whole: with the preset's values too. A session's keys hold unless there is a file of
+  // --lights; its animated lights stand in place of its own.
+  [[nodiscard]] static Result<FrameValues> create(const KeyFiles& files, params::Values command_line,
                                                   params::Values whole);
 
   [[nodiscard]] params::Values at(int frame) const;
@@ -47,6 +53,7 @@ class FrameValues {
 
  private:
   FrameValues() = default;
+  [[nodiscard]] Result<void> take_keys_of(const std::string& session_file);
 
   [[nodiscard]] Shutter shutter_of(int frame) const;
   [[nodiscard]] params::Values without_lights(int frame, double time) const;

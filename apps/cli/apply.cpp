@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // contrejour apply: adds the flare of a photograph's own lights to it.
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "cli/preset_choice.h"
 #include "cli/sequence_options.h"
 #include "cli/source_choice.h"
+#include "contrejour/expert/session.h"
 #include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
@@ -41,7 +43,8 @@ constexpr const char* kApplyExamples =
     "  contrejour apply heliar plate.####.exr -o out.####.exr --frames 1001-1240 --resume\n"
     "  contrejour apply heliar plate.####.dpx -o out.####.dpx --input-space logc3\n"
     "  contrejour apply heliar plate.####.exr -o out.####.exr --lights lights.toml\n"
-    "  contrejour apply heliar plate.exr -o out.exr --flare-only flare.exr --layers light";
+    "  contrejour apply heliar plate.exr -o out.exr --flare-only flare.exr --layers light\n"
+    "  contrejour apply --session mine.session.json -o out.exr";
 
 Result<PlannedPhotograph> plan_still(const ApplyOptions& options, const FrameValues& values, const FrameLens& lens) {
   const auto state = lens.at(options.values);
@@ -81,15 +84,38 @@ Result<int> apply_to_still(const ApplyOptions& options, const FrameValues& value
   return kDone;
 }
 
+// Without IN the session's plate is the photograph, read as the session says.
+Result<void> fill_plate(ApplyOptions& options) {
+  if (!options.input.empty() || options.preset.session.empty()) return {};
+  const std::filesystem::path file = options.preset.session;
+  const auto session = read_session(file);
+  if (!session) return tl::unexpected(session.error());
+  const SessionPlate& plate = session->plate;
+  if (plate.file.empty())
+    return failure(ErrorCode::InvalidArgument, "the session has no plate; give IN, the photograph", {file.string()});
+  options.input = plate_file(plate, file).string();
+  const auto fill = [](std::string& own, const std::string& from) {
+    if (own.empty()) own = from;
+  };
+  fill(options.read.layer, plate.layer);
+  fill(options.read.part, plate.part);
+  fill(options.colour.input_space, plate.input_space);
+  fill(options.colour.config, plate.config);
+  return {};
+}
+
 Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
   if (auto ok = check_layer_options(options.layers, options.flare_only, "--flare-only"); !ok)
     return tl::unexpected(ok.error());
   const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
-  const auto values = FrameValues::create(options.lights, command_line, options.values);
+  if (const auto ok = fill_plate(options); !ok) return tl::unexpected(ok.error());
+  const bool has_frames = is_sequence(options.input) || !sequence.frames.empty();
+  const auto values =
+      FrameValues::create({options.lights, has_frames ? options.preset.session : ""}, command_line, options.values);
   if (!values) return tl::unexpected(values.error());
-  if (is_sequence(options.input) || !sequence.frames.empty()) return apply_to_sequence(options, *values, sequence);
+  if (has_frames) return apply_to_sequence(options, *values, sequence);
   if (auto ok = check_is_not_listed(sequence); !ok) return tl::unexpected(ok.error());
   options.values = values->of_still();
   options.layers.light_names = values->light_names(values->still_frame());
@@ -99,6 +125,7 @@ Result<int> run_apply(ApplyOptions options, const SequenceOptions& sequence) {
 
 // The error if only one of LENS and IN is given.
 CLI::ParseError missing_argument(const std::string& given) {
+  if (given.empty()) return CLI::RequiredError("LENS");
   if (!is_plate_name(given)) return CLI::RequiredError("IN");
   return CLI::RequiredError(
       fmt::format("LENS before {} (`contrejour lens list`, or a preset that names a lens, --preset)", given));
@@ -110,7 +137,7 @@ void add_apply(CLI::App& app, Action& action) {
   const auto options = std::make_shared<ApplyOptions>();
   const auto sequence = std::make_shared<SequenceOptions>();
   CLI::App* command = app.add_subcommand("apply", "add the flare of a lens to a photograph");
-  add_lens_argument(*command, options->lens);
+  add_lens_argument(*command, options->lens)->required(false);
   command->add_option("IN", options->input, "the photograph: a scene-linear EXR, a PNG, DPX, TIFF, JPEG or HDR")
       ->option_text(" ");
   add_picture_choice(*command, options->read);
@@ -145,7 +172,7 @@ void add_apply(CLI::App& app, Action& action) {
   command->callback([options, sequence, &action] {
     if (options->input.empty()) {
       if (options->preset.name.empty() && options->preset.session.empty()) throw missing_argument(options->lens);
-      std::swap(options->lens, options->input);  // the lens comes from the preset
+      if (!options->lens.empty()) std::swap(options->lens, options->input);  // the lens comes from the preset
     }
     action = [options, sequence] { return run_apply(*options, *sequence); };
   });

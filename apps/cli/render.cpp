@@ -79,7 +79,8 @@ Result<int> run_render(RenderOptions options, const SequenceOptions& sequence) {
   const params::Values command_line = options.values;
   if (const auto ok = fill_from_preset(options.preset, options.lens, options.values); !ok)
     return tl::unexpected(ok.error());
-  const auto values = FrameValues::create(options.lights, command_line, options.values);
+  const auto values = FrameValues::create({options.lights, sequence.frames.empty() ? "" : options.preset.session},
+                                          command_line, options.values);
   if (!values) return tl::unexpected(values.error());
   options.needs_light = !values->have_lights();
   if (!sequence.frames.empty()) return render_sequence(options, *values, sequence);

@@ -2,6 +2,8 @@
 #include "contrejour/expert/session.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,8 +80,33 @@ Result<void> read_values(const JsonNode& whole, const std::string& file, params:
   return {};
 }
 
+// The members of a plate, by their keys.
+template <class Plate>
+auto plate_members(Plate& plate) {
+  return std::array{std::pair("file", &plate.file), std::pair("layer", &plate.layer), std::pair("part", &plate.part),
+                    std::pair("input-space", &plate.input_space), std::pair("ocio-config", &plate.config)};
+}
+
+Result<void> read_session_plate(const JsonNode& whole, const std::string& file, SessionPlate& plate) {
+  const JsonNode* node = whole.find("plate");
+  if (node == nullptr) return {};
+  if (node->kind != JsonNode::Kind::Map) return wrong_session(file, node->line, "\"plate\" is not an object");
+  for (const auto& [key, text] : plate_members(plate))
+    if (auto ok = read_text(*node, key, file, *text); !ok) return ok;
+  if (plate.file.empty()) return wrong_session(file, node->line, "\"plate\" has no \"file\"");
+  return {};
+}
+
+std::string json_of_plate(const SessionPlate& plate) {
+  std::vector<JsonMember> members;
+  for (const auto& [key, text] : plate_members(plate))
+    if (!text->empty()) members.emplace_back(key, json_of_text(*text));
+  return json_of_members(members);
+}
+
 bool is_known_member(std::string_view key) {
-  return key == kVersionKey || key == "lens" || key == "prescription" || key == "values";
+  return key == kVersionKey || key == "lens" || key == "prescription" || key == "values" || key == "plate" ||
+         key == "animation";
 }
 
 std::string json_of_values(const params::Values& values) {
@@ -109,6 +136,8 @@ Result<Session> read_session(std::string_view json, const std::string& file) {
   if (auto ok = read_text(*whole, "lens", file, session.lens); !ok) return tl::unexpected(ok.error());
   if (auto ok = read_text(*whole, "prescription", file, session.prescription); !ok) return tl::unexpected(ok.error());
   if (auto ok = read_values(*whole, file, session.values); !ok) return tl::unexpected(ok.error());
+  if (auto ok = read_session_plate(*whole, file, session.plate); !ok) return tl::unexpected(ok.error());
+  if (auto ok = read_text(*whole, "animation", file, session.animation); !ok) return tl::unexpected(ok.error());
   const auto members = json_members(json, file);
   if (!members) return tl::unexpected(members.error());
   for (const auto& [key, text] : *members)
@@ -124,13 +153,21 @@ Result<Session> read_session(const std::filesystem::path& file) {
 
 std::string write_session(const Session& session) {
   std::vector<JsonMember> members;
+  members.reserve(6 + session.others.size());
   members.emplace_back(kVersionKey, std::to_string(kSessionVersion));
   members.emplace_back("lens", json_of_text(session.lens));
   members.emplace_back("values", json_of_values(session.values));
   if (!session.prescription.empty()) members.emplace_back("prescription", json_of_text(session.prescription));
+  if (!session.plate.file.empty()) members.emplace_back("plate", json_of_plate(session.plate));
+  if (!session.animation.empty()) members.emplace_back("animation", json_of_text(session.animation));
   for (const SessionMember& other : session.others)
     if (!is_known_member(other.key)) members.emplace_back(other.key, other.json);
   return json_of_members(members);
+}
+
+std::filesystem::path plate_file(const SessionPlate& plate, const std::filesystem::path& session_file) {
+  if (plate.file.empty()) return {};
+  return (session_file.parent_path() / plate.file).lexically_normal();  // an absolute name stays what it is
 }
 
 Result<Prescription> lens_of_session(const Session& session, const GlassCatalogue* glasses) {

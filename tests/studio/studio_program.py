@@ -39,7 +39,8 @@ class StudioTest(unittest.TestCase):
 
     def environment(self, **more):
         keep = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        return {**keep, "XDG_STATE_HOME": str(self.folder / "state"), "LIBGL_ALWAYS_SOFTWARE": "1", **more}
+        return {**keep, "XDG_STATE_HOME": str(self.folder / "state"), "XDG_DATA_HOME": str(self.folder / "data"),
+                "XDG_CACHE_HOME": str(self.folder / "cache"), "LIBGL_ALWAYS_SOFTWARE": "1", **more}
 
     def xvfb(self, *command):
         return ["xvfb-run", "-a", "-s", "-screen 0 1600x900x24 -nolisten tcp", *map(str, command)]

@@ -83,11 +83,11 @@ TEST_CASE("the command line quotes what a shell would take apart") {
   Document d = first_document();
   d.lens_name = "it's mine.toml";
   d.texts = {{"light-at", {"-0.2,0.3:900"}}, {"starburst", {"on"}}, {"mirror-symmetry", {"off"}}};
-  CHECK(command_of_values(d, "a b.exr") ==
+  CHECK(command_of_values(d, {.output = "a b.exr"}) ==
         "contrejour render 'it'\\''s mine.toml' --light-at=-0.2,0.3:900 "
         "--no-mirror-symmetry --starburst -o 'a b.exr'");
   d.lens_was_edited = true;
-  CHECK(command_of_values(d, "a.exr").empty());
+  CHECK(command_of_values(d, {.output = "a.exr"}).empty());
 }
 
 TEST_CASE("commands of one gesture are one step until it ends") {

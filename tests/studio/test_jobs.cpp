@@ -200,6 +200,25 @@ TEST_CASE("the view is that of the command line's preview, to one code") {
   }
 }
 
+TEST_CASE("a picture in ACEScg is shown in the window's primaries") {
+  // ACEScg of Rec.709 red, by the matrices that the ACES project publishes.
+  auto image = std::make_shared<Image>(1, 1);
+  image->pixels = {0.61309F, 0.07020F, 0.02062F};
+  DisplayOrder order;
+  order.picture.kind = PictureKind::Refined;
+  order.picture.image = image;
+  order.picture.space = ColourSpace::AcesCg;
+  order.transform = ViewTransform::Clipped;
+  order.automatic = false;
+  DisplayJob job(display_work(), {});
+  job.post(order);
+  const auto answers = answers_until_idle<DisplayAnswer>(job);
+  REQUIRE(answers.size() == 1);
+  CHECK((answers[0].rgba[0] & 255U) >= 254);
+  CHECK((answers[0].rgba[0] >> 8U & 255U) <= 2);
+  CHECK((answers[0].rgba[0] >> 16U & 255U) <= 2);
+}
+
 TEST_CASE("false colours tell stops apart") {
   Image image(3, 1);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -225,6 +244,26 @@ TEST_CASE("figures are those of the light that is asked for, and the section has
   const auto under = ghosts_under(figures, figures[0].centroid_px);
   CHECK(std::find(under.begin(), under.end(), std::size_t{0}) != under.end());
   CHECK(ghosts_under(figures, {1e9, 0}).empty());
+
+  // Footprints have their figures' middle and size.
+  REQUIRE(answers[0].footprints.size() == kMostFootprints);
+  int traced = 0;
+  for (std::size_t k = 0; k < kMostFootprints; ++k) {
+    const GhostFootprint& footprint = answers[0].footprints[k];
+    if (footprint.cells_px.size() < 60 || figures[k].in_focus) continue;
+    Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
+    for (const auto& cell : footprint.cells_px)
+      for (const Vec2 p : cell) {
+        low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y)};
+        high = {std::fmax(high.x, p.x), std::fmax(high.y, p.y)};
+      }
+    const double tolerance = 2 + 0.2 * std::fmax(figures[k].size_px.x, figures[k].size_px.y);
+    CHECK(std::fabs(high.x - low.x - figures[k].size_px.x) < tolerance);
+    CHECK(std::fabs(high.y - low.y - figures[k].size_px.y) < tolerance);
+    CHECK_FALSE(footprint.contains({high.x + 10, high.y + 10}, 3));
+    ++traced;
+  }
+  CHECK(traced > 5);
 
   SectionJob section_job(section_work(), {});
   const auto light = light_of(order.values, *order.lens, 0);

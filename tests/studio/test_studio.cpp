@@ -1,33 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The studio without its window: commands, files, copies of unsaved work.
-#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include <doctest/doctest.h>
 
 #include "contrejour/image_io.h"
 #include "studio/core/lights.h"
 #include "studio/core/studio.h"
+#include "studio/studio_scene.h"
 #include "support/scratch_folder.h"
 
 namespace contrejour::studio {
 namespace {
 
-using namespace std::chrono_literals;
 using test::ScratchFolder;
-
-Document small_scene() { return *with_value(*with_value(first_document(), "size", "96x64"), "starburst", "off"); }
-
-void run_until_idle(Studio& studio) {
-  const auto start = std::chrono::steady_clock::now();
-  do {
-    studio.update();
-    std::this_thread::sleep_for(1ms);
-  } while (!studio.is_idle() && std::chrono::steady_clock::now() - start < 60s);
-  studio.update();
-}
 
 Studio::Edit move_to(Vec2 at) {
   return [at](const Document& d) { return with_light_at(d, 0, at); };
@@ -130,13 +117,13 @@ TEST_CASE("an export is the picture that is shown, and a wrong name is told apar
   Studio studio("first", small_scene(), {});
   run_until_idle(studio);
   const std::string file = (folder / "flare.exr").string();
-  studio.export_picture(file);
+  studio.export_as(ExportKind::Picture, file);
   run_until_idle(studio);
   CHECK(studio.message() == "wrote " + file);
   const auto picture = read_picture(std::filesystem::path(file));
   REQUIRE(picture);
   CHECK(picture->rgb.pixels == studio.shown().picture.image->pixels);
-  studio.export_picture((folder / "flare.doc").string());
+  studio.export_as(ExportKind::Picture, (folder / "flare.doc").string());
   run_until_idle(studio);
   CHECK(studio.message().find(".exr or .png") != std::string::npos);
 }

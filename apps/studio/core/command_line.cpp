@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
 namespace contrejour::studio {
 namespace {
 
@@ -31,18 +33,63 @@ std::string option_of(const params::Parameter& p, const std::string& text) {
   return " --" + name + (text.starts_with("-") ? "=" : " ") + quoted(text);
 }
 
-}  // namespace
-
-std::string command_of_session(const std::string& file, const std::string& output) {
-  return "contrejour render --session " + quoted(file) + " -o " + quoted(output);
+// `render` finds no lights in a picture; `apply` has the plate's size.
+bool takes(bool applies, const params::Parameter& p) {
+  return applies ? p.name != "size" : p.group != "Light detection";
 }
 
-std::string command_of_values(const Document& document, const std::string& output) {
-  if (document.lens_was_edited) return "";
-  std::string command = "contrejour render " + quoted(document.lens_name);
+const char* name_of(LayersBy by) {
+  static constexpr const char* names[] = {"light", "ghost", "part", "surface"};
+  return names[static_cast<std::size_t>(by)];
+}
+
+std::string plate_options(const SessionPlate& plate) {
+  std::string text = " " + quoted(plate.file);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) text += std::string(" --") + option + " " + quoted(value);
+  };
+  add("layer", plate.layer);
+  add("part", plate.part);
+  add("input-space", plate.input_space);
+  add("ocio-config", plate.config);
+  return text;
+}
+
+// What the kind adds, and the output.
+std::string output_options(const CommandChoice& choice, bool applies) {
+  const std::string output = quoted(choice.output);
+  switch (choice.kind) {
+    case ExportKind::Layers:
+      return fmt::format(" --layers {} {} {}", name_of(choice.layers_by), applies ? "-o out.exr --flare-only" : "-o",
+                         output);
+    case ExportKind::Frames: return fmt::format(" --frames {}-{} -o {}", choice.first, choice.last, output);
+    case ExportKind::Look: return fmt::format(" --save-preset {} -o flare.exr", output);
+    default: return " -o " + output;
+  }
+}
+
+}  // namespace
+
+std::string command_of_session(const Document& document, const std::string& file, const CommandChoice& choice) {
+  if (choice.kind == ExportKind::Report) return "";
+  if (choice.kind == ExportKind::Lens) return "contrejour lens convert " + quoted(file) + " " + quoted(choice.output);
+  const bool applies = document.has_plate();
+  return fmt::format("contrejour {} --session {}", applies ? "apply" : "render", quoted(file)) +
+         output_options(choice, applies);
+}
+
+std::string command_of_values(const Document& document, const CommandChoice& choice) {
+  const bool is_of_session = document.lens_was_edited || document.animation != Animation{};
+  if (is_of_session || choice.kind == ExportKind::Report || choice.kind == ExportKind::Frames) return "";
+  if (choice.kind == ExportKind::Lens)
+    return "contrejour lens convert " + quoted(document.lens_name) + " " + quoted(choice.output);
+  const bool applies = document.has_plate();
+  std::string command = fmt::format("contrejour {} {}", applies ? "apply" : "render", quoted(document.lens_name));
+  if (applies) command += plate_options(document.plate);
   for (const auto& [name, texts] : document.texts)
-    for (const std::string& text : texts) command += option_of(params::parameter(name), text);
-  return command + " -o " + quoted(output);
+    for (const std::string& text : texts)
+      if (takes(applies, params::parameter(name))) command += option_of(params::parameter(name), text);
+  return command + output_options(choice, applies);
 }
 
 }  // namespace contrejour::studio

@@ -4,14 +4,23 @@
 
 #include <string>
 
-#include "studio/core/document.h"
+#include "studio/core/exports.h"
 
 namespace contrejour::studio {
 
-// `contrejour render --session FILE -o flare.exr`, of a session that was saved.
-[[nodiscard]] std::string command_of_session(const std::string& file, const std::string& output);
+struct CommandChoice {
+  ExportKind kind = ExportKind::Picture;
+  std::string output = "flare.exr";
+  LayersBy layers_by = LayersBy::Part;
+  int first = 1, last = 1;  // of the frames
+};
 
-// Every value as an option; empty for a document whose lens was edited, which only a session holds.
-[[nodiscard]] std::string command_of_values(const Document& document, const std::string& output);
+// `contrejour render --session FILE -o flare.exr`, of a session that was saved; `apply` where it has a plate. Empty for
+// what no command makes (the report).
+[[nodiscard]] std::string command_of_session(const Document& document, const std::string& file,
+                                             const CommandChoice& choice);
+
+// Every value as an option; empty for a document whose lens was edited, or that has keys, which only a session holds.
+[[nodiscard]] std::string command_of_values(const Document& document, const CommandChoice& choice);
 
 }  // namespace contrejour::studio

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contrejour/expert/colour.h"
 #include "contrejour/expert/preview_exposure.h"
 
 namespace contrejour::studio {
@@ -66,14 +67,21 @@ std::uint32_t false_colour(float luminance) {
   return packed(c[0], c[1], c[2]);
 }
 
-Image with_plate(const Image& flare, const Image& plate, float gain) {
-  Image sum = flare;
-  for (std::size_t k = 0; k < sum.pixels.size(); ++k) sum.pixels[k] = sum.pixels[k] * gain + plate.pixels[k];
-  return sum;
-}
-
-bool fits(const Image& plate, const Image& picture) {
-  return plate.width == picture.width && plate.height == picture.height && plate.channels == picture.channels;
+// The window shows Rec.709, as PNG previews do of pictures in that space.
+Image in_rec709(Image image) {
+  std::array<Rgb, 3> columns;
+  for (std::size_t c = 0; c < 3; ++c) {
+    Rgb unit{};
+    unit[c] = 1;
+    columns[c] = rgb_from_xyz(xyz_from_rgb(unit, ColourSpace::AcesCg), ColourSpace::Rec709);
+  }
+  for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3) {
+    const std::array<float, 3> from = {image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]};
+    for (std::size_t c = 0; c < 3; ++c)
+      image.pixels[k + c] = static_cast<float>(columns[0][c]) * from[0] + static_cast<float>(columns[1][c]) * from[1] +
+                            static_cast<float>(columns[2][c]) * from[2];
+  }
+  return image;
 }
 
 class DisplayWorker {
@@ -81,23 +89,27 @@ class DisplayWorker {
   DisplayAnswer shown(const DisplayOrder& order) {
     DisplayAnswer answer{order.picture, 0, 0, {}, 0};
     if (!order.picture.image) return answer;
-    const Image& image = *order.picture.image;
-    if (order.picture.kind == PictureKind::Refined || !has_exposure_) update_exposure(order);
+    const bool is_shown_as_it_is = order.picture.space == ColourSpace::Rec709;
+    const Image converted = is_shown_as_it_is ? Image() : in_rec709(*order.picture.image);
+    const Image& image = is_shown_as_it_is ? *order.picture.image : converted;
+    if (order.picture.kind == PictureKind::Refined || order.picture.has_plate || !has_exposure_) update_exposure(order);
     answer.stops = order.automatic ? automatic_stops_ : order.stops;
     answer.width = image.width;
     answer.height = image.height;
-    const double gain = 1.0 / order.picture.pixel_area;
-    if (order.plate && fits(*order.plate, image))
-      answer.rgba = displayed(with_plate(image, *order.plate, static_cast<float>(gain)), answer.stops, order.transform);
+    if (order.snapshot && order.compare.mode != CompareMode::Off)
+      answer.rgba = displayed(compared_image(image, order.picture.pixel_area, *order.snapshot, order.compare),
+                              answer.stops, order.transform);
     else
-      answer.rgba = displayed(image, answer.stops + std::log2(gain), order.transform);
+      answer.rgba = displayed(image, answer.stops - std::log2(order.picture.pixel_area), order.transform);
     return answer;
   }
 
  private:
   // Drafts keep the exposure of the last picture, so that it does not flicker while a light is dragged.
   void update_exposure(const DisplayOrder& order) {
-    automatic_stops_ = params::automatic_exposure(*order.picture.image) + std::log2(order.picture.pixel_area);
+    automatic_stops_ = order.picture.has_plate
+                           ? 0.0
+                           : params::automatic_exposure(*order.picture.image) + std::log2(order.picture.pixel_area);
     has_exposure_ = true;
   }
 

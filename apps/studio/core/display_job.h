@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contrejour/image.h"
+#include "studio/core/compare.h"
 #include "studio/core/latest_job.h"
 #include "studio/core/picture_job.h"
 
@@ -21,9 +22,12 @@ enum class ViewTransform {
 
 struct DisplayOrder {
   PictureAnswer picture;
-  std::shared_ptr<const Image> plate;  // added to the flare where it has the picture's size; may be null
+  std::shared_ptr<const Image> snapshot = nullptr;  // the picture is compared with it; null: it is not
+  CompareView compare = {};
   ViewTransform transform = ViewTransform::Preview;
-  bool automatic = true;  // the exposure of the last refined picture; else `stops`
+  // The exposure of the last refined picture, or 0 stops where there is a plate, as of the command line's previews;
+  // else `stops`.
+  bool automatic = true;
   double stops = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "contrejour/preset.h"
 
 namespace contrejour::studio {
@@ -17,6 +19,14 @@ std::shared_ptr<const Prescription> shared(Prescription lens) {
 void take_values(const params::Values& values, ValueTexts& texts) {
   for (const params::Parameter& p : params::all_parameters())
     if (values.given(p.name)) texts[std::string(p.name)] = values.list(p.name);
+}
+
+SessionPlate plate_in_folder(SessionPlate plate, const std::filesystem::path& session_file) {
+  if (plate.file.empty() || session_file.empty()) return plate;
+  const auto folder = std::filesystem::absolute(session_file).parent_path();
+  const auto relative = std::filesystem::path(plate.file).lexically_relative(folder);
+  if (!relative.empty() && *relative.begin() != "..") plate.file = relative.string();
+  return plate;
 }
 
 }  // namespace
@@ -79,7 +89,7 @@ Result<Document> document_with_preset(const Document& scene, const std::string& 
   return document;
 }
 
-Result<Document> document_of(const Session& session) {
+Result<Document> document_of(const Session& session, const std::filesystem::path& file) {
   auto lens = lens_of_session(session);
   if (!lens) return tl::unexpected(lens.error());
   Document document;
@@ -88,12 +98,37 @@ Result<Document> document_of(const Session& session) {
   document.lens_was_edited = !original || write_lens_toml(*original) != write_lens_toml(*lens);
   document.lens = shared(std::move(*lens));
   take_values(session.values, document.texts);
+  document.plate = session.plate;
+  document.plate.file = plate_file(session.plate, file.empty() ? file : std::filesystem::absolute(file)).string();
+  if (!session.animation.empty()) {
+    auto animation = read_animation(session.animation, file.string());
+    if (!animation) return tl::unexpected(animation.error());
+    document.animation = std::move(*animation);
+  }
   document.others = session.others;
   return document;
 }
 
-Session session_of(const Document& document) {
-  return {document.lens_name, write_lens_toml(*document.lens), document.values(), document.others};
+Session session_of(const Document& document, const std::filesystem::path& file) {
+  const bool has_keys = document.animation != Animation{};
+  return {document.lens_name,
+          write_lens_toml(*document.lens),
+          document.values(),
+          plate_in_folder(document.plate, file),
+          has_keys ? write_animation(document.animation) : std::string(),
+          document.others};
+}
+
+Document with_plate(Document document, const SessionPlate& plate, int width, int height) {
+  document.plate = plate;
+  document.texts["size"] = {fmt::format("{}x{}", width, height)};
+  if (!document.list("light-at").empty()) document.texts["detect"] = {"off"};
+  return document;
+}
+
+Document without_plate(Document document) {
+  document.plate = {};
+  return without_value(std::move(document), "detect");
 }
 
 Result<Document> with_value(Document document, std::string_view name, const std::string& text) {

@@ -13,12 +13,16 @@ namespace {
 constexpr int kFiguresThreads = 1;
 constexpr std::chrono::milliseconds kRestBeforeFigures{120};
 
-Result<std::vector<GhostFigures>> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
+Result<FiguresAnswer> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
   const auto light = light_of(order.values, *order.lens, order.light);
   if (!light) return tl::unexpected(light.error());
   const auto request = figures_request(order.values, *order.lens, &*light);
   if (!request) return tl::unexpected(request.error());
-  return ghost_figures(*order.lens, *request, {.threads = kFiguresThreads, .cancel = &cancel});
+  const Context context{.threads = kFiguresThreads, .cancel = &cancel};
+  auto figures = ghost_figures(*order.lens, *request, context);
+  if (!figures) return tl::unexpected(figures.error());
+  auto footprints = footprints_of(*order.lens, *figures, *light, request->frame, context);
+  return FiguresAnswer{order.revision, order.light, std::move(*figures), std::move(footprints), {}};
 }
 
 }  // namespace
@@ -41,12 +45,10 @@ FiguresJob::Work figures_work() {
     if (!control.rests_for(kRestBeforeFigures)) return;
     auto figures = figures_of(order, control.is_outdated());
     if (control.is_outdated()) return;
-    FiguresAnswer answer{order.revision, order.light, {}, {}};
     if (figures)
-      answer.figures = std::move(*figures);
+      control.publish(std::move(*figures));
     else
-      answer.error = figures.error().to_string();
-    control.publish(std::move(answer));
+      control.publish({order.revision, order.light, {}, {}, figures.error().to_string()});
   };
 }
 

@@ -12,6 +12,7 @@
 #include "contrejour/expert/lens_section.h"
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/ghost_figures.h"
+#include "studio/core/ghost_footprint.h"
 #include "studio/core/latest_job.h"
 
 namespace contrejour::studio {
@@ -27,6 +28,7 @@ struct FiguresAnswer {
   std::uint64_t revision = 0;
   std::size_t light = 0;
   std::vector<GhostFigures> figures;  // pixels are those of --size
+  std::vector<GhostFootprint> footprints;  // of the first of them
   std::string error;
 };
 

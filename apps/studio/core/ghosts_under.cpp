@@ -18,15 +18,22 @@ double density(const GhostFigures& ghost) {
   return ghost.relative_flux / (reach.x * reach.y);
 }
 
+bool is_in_ellipse(const GhostFigures& ghost, Vec2 point_px) {
+  const Vec2 reach = reach_of(ghost), from = point_px - ghost.centroid_px;
+  return std::hypot(from.x / reach.x, from.y / reach.y) <= 1.0;
+}
+
 }  // namespace
 
-std::vector<std::size_t> ghosts_under(const std::vector<GhostFigures>& figures, Vec2 point_px) {
+std::vector<std::size_t> ghosts_under(const std::vector<GhostFigures>& figures, Vec2 point_px,
+                                      std::span<const GhostFootprint> footprints) {
   std::vector<std::size_t> under;
   for (std::size_t k = 0; k < figures.size(); ++k) {
     if (!(figures[k].relative_flux > 0)) continue;
-    const Vec2 reach = reach_of(figures[k]);
-    const Vec2 from = point_px - figures[k].centroid_px;
-    if (std::hypot(from.x / reach.x, from.y / reach.y) <= 1.0) under.push_back(k);
+    const bool is_traced = k < footprints.size() && !footprints[k].cells_px.empty();
+    const bool is_there =
+        is_traced ? footprints[k].contains(point_px, kSmallestReach_px) : is_in_ellipse(figures[k], point_px);
+    if (is_there) under.push_back(k);
   }
   std::sort(under.begin(), under.end(),
             [&](std::size_t a, std::size_t b) { return density(figures[a]) > density(figures[b]); });

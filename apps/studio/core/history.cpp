@@ -24,6 +24,12 @@ void History::push(std::string name, std::string merge_key, Document next) {
   sealed_ = false;
 }
 
+void History::replace_now(Document document) {
+  const bool was_saved = is_saved();
+  steps_[position_].document = std::make_shared<const Document>(std::move(document));
+  if (was_saved) mark_saved();
+}
+
 void History::undo() {
   if (can_undo()) go_to(position_ - 1);
 }

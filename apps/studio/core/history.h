@@ -28,6 +28,8 @@ class History {
   // Commands that had been undone are dropped.
   void push(std::string name, std::string merge_key, Document next);
   void seal() { sealed_ = true; }
+  // The same state seen at another frame: no step.
+  void replace_now(Document document);
 
   [[nodiscard]] bool can_undo() const { return position_ > 0; }
   [[nodiscard]] bool can_redo() const { return position_ + 1 < steps_.size(); }

@@ -23,15 +23,26 @@ LightEntry entry_of(const std::string& text) {
   return light;
 }
 
+constexpr double kPlaces = 1e5;  // a hundredth of a pixel in any picture: enough for a hand
+
+// Positions between two keys have more places than those that a hand has set.
+std::string text_of_place(double value) {
+  const bool is_short = std::fabs(std::round(value * kPlaces) / kPlaces - value) < 1e-12;
+  return is_short ? fmt::format("{:.5f}", value) : fmt::format("{}", value);
+}
+
 std::string text_of(const LightEntry& light) {
-  std::string text = fmt::format("{:.5f},{:.5f}:{}:{}:{}:{}", light.at.x, light.at.y, light.value, light.colour,
-                                 light.size, light.distance);
+  std::string text = fmt::format("{},{}:{}:{}:{}:{}", text_of_place(light.at.x), text_of_place(light.at.y), light.value,
+                                 light.colour, light.size, light.distance);
   text.erase(text.find_last_not_of(':') + 1);
   return text;
 }
 
 Vec2 within_reach(Vec2 at) {
-  return {std::fmax(-kFarthest, std::fmin(kFarthest, at.x)), std::fmax(-kFarthest, std::fmin(kFarthest, at.y))};
+  const auto near = [](double v) {
+    return std::round(kPlaces * std::fmax(-kFarthest, std::fmin(kFarthest, v))) / kPlaces;
+  };
+  return {near(at.x), near(at.y)};
 }
 
 }  // namespace

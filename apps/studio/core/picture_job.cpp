@@ -11,7 +11,9 @@
 #include "contrejour/expert/parameter_text.h"
 #include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/renderer.h"
+#include "studio/core/plate_picture.h"
 
 namespace contrejour::studio {
 namespace {
@@ -36,18 +38,28 @@ class PictureWorker {
     params::Values values = draft_values(order, level);
     const bool shifts_stars = StarLayers::are_wanted(values) && stars_.have(order.stars);
     if (shifts_stars) leave_out_stars(values);
-    PictureAnswer answer = rendered(order, values, {.cancel = &control.is_ending()}, [&](Image& image) {
+    const auto change = [&](Image& image) {
       if (shifts_stars) add_stars(order, level.divisor, image);
+    };
+    const Context context{.cancel = &control.is_ending()};
+    PictureAnswer answer = rendered(order, values, context, [&]() -> Result<PlatePictures::Picture> {
+      if (order.plate) return plates_.draft(order.plate, *order.lens, values, *renderer_, context, change);
+      auto picture = flare_of(order, values, context);
+      if (picture) change(picture->image);
+      return picture;
     });
     answer.kind = PictureKind::Draft;
-    answer.pixel_area = static_cast<double>(level.divisor * level.divisor);
+    if (!order.plate) answer.pixel_area = static_cast<double>(level.divisor * level.divisor);
     adapt(answer.time_ms);
     control.publish(std::move(answer));
   }
 
   void refine(const PictureOrder& order, PictureJob::Control& control) {
     const Context context{.cancel = &control.is_outdated()};
-    PictureAnswer answer = rendered(order, order.values, context, {});
+    PictureAnswer answer = rendered(order, order.values, context, [&] {
+      return order.plate ? PlatePictures::refined(*order.plate, *order.lens, order.values, *renderer_, context)
+                         : flare_of(order, order.values, context);
+    });
     answer.kind = PictureKind::Refined;
     if (control.is_outdated()) return;
     control.publish(std::move(answer));
@@ -67,37 +79,48 @@ class PictureWorker {
       stars_.add(order.stars, {static_cast<double>(size->width), static_cast<double>(size->height)}, divisor, draft);
   }
 
-  // change: of the image, before it is answered.
+  // draw: by the renderer, which then has the lens and the method.
   PictureAnswer rendered(const PictureOrder& order, const params::Values& values, const Context& context,
-                         const std::function<void(Image&)>& change) {
+                         const std::function<Result<PlatePictures::Picture>()>& draw) {
     const auto start = Clock::now();
     PictureAnswer answer;
     answer.revision = order.revision;
-    auto flare = flare_of(order, values, context);
-    if (flare) {
-      answer.ghosts = flare->statistics.ghosts_rendered;
-      if (change) change(flare->image);
-      answer.image = std::make_shared<const Image>(std::move(flare->image));
-    } else {
-      answer.error = flare.error().to_string();
+    answer.has_plate = order.plate != nullptr;
+    answer.space =
+        params::colour_space(values, order.plate ? colour_space_of(order.plate->picture).value_or(ColourSpace::Rec709)
+                                                 : ColourSpace::Rec709);
+    const auto ready = set_renderer(order, values);
+    auto picture = ready ? draw() : Result<PlatePictures::Picture>(tl::unexpected(ready.error()));
+    if (picture) {
+      answer.ghosts = picture->ghosts;
+      answer.image = std::make_shared<const Image>(std::move(picture->image));
+    } else if (!context.cancelled()) {
+      answer.error = picture.error().to_string();
     }
     answer.time_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     return answer;
   }
 
-  Result<Flare> flare_of(const PictureOrder& order, const params::Values& values, const Context& context) {
+  Result<void> set_renderer(const PictureOrder& order, const params::Values& values) {
     if (!renderer_) {
       auto created = Renderer::create();
       if (!created) return tl::unexpected(created.error());
       renderer_ = std::move(*created);
     }
-    if (auto set = configure_renderer(*renderer_, values); !set) return tl::unexpected(set.error());
+    if (auto set = configure_renderer(*renderer_, values); !set) return set;
     if (lens_ != order.lens)
-      if (auto set = renderer_->set_lens(*order.lens); !set) return tl::unexpected(set.error());
+      if (auto set = renderer_->set_lens(*order.lens); !set) return set;
     lens_ = order.lens;
+    return {};
+  }
+
+  Result<PlatePictures::Picture> flare_of(const PictureOrder& order, const params::Values& values,
+                                          const Context& context) {
     const auto request = picture_request(values, *order.lens);
     if (!request) return tl::unexpected(request.error());
-    return render_picture(*request, *renderer_, context);
+    auto flare = render_picture(*request, *renderer_, context);
+    if (!flare) return tl::unexpected(flare.error());
+    return PlatePictures::Picture{std::move(flare->image), flare->statistics.ghosts_rendered};
   }
 
   // Late drafts raise the level at once; several early ones lower it, so that it does not alternate.
@@ -116,6 +139,7 @@ class PictureWorker {
   std::optional<Renderer> renderer_;
   std::shared_ptr<const LensState> lens_;
   StarLayers stars_;
+  PlatePictures plates_;
   std::size_t level_ = 1;
   int early_ = 0;
 };
@@ -147,6 +171,11 @@ const std::vector<DraftLevel>& draft_levels() {
 
 params::Values draft_values(const PictureOrder& order, const DraftLevel& level) {
   params::Values values = order.values;
+  if (order.plate) {
+    const Image& rgb = order.plate->picture.rgb;
+    replace(values, "size", fmt::format("{}x{}", rgb.width, rgb.height));
+    replace(values, "pixel-aspect", fmt::format("{:.6g}", pixel_aspect_of(order.plate->picture)));
+  }
   replace(values, "method", "adaptive");
   replace(values, "error", level.error);
   replace(values, "size", smaller_size(*values.text("size"), level.divisor));

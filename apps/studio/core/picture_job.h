@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the flare for the viewport: for each request first a draft, and after 150 ms of rest the picture itself,
-// which is that of `contrejour render`, bit for bit. The next request stops the picture, but never a draft: a light
-// that is dragged would else have none. Drafts are coarser (size, error) the longer they take, so that they keep up.
-// Thread-safety: as of LatestJob.
+// which is that of `contrejour render`, bit for bit, or with a plate that of `contrejour apply`. The next request stops
+// the picture, but never a draft: a light that is dragged would else have none. Drafts are coarser (size, error) the
+// longer they take, so that they keep up. Thread-safety: as of LatestJob.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 #include "contrejour/expert/ghost_id.h"
 #include "contrejour/expert/parameter_values.h"
+#include "contrejour/expert/plate.h"
 #include "contrejour/image.h"
 #include "contrejour/lens.h"
 #include "studio/core/latest_job.h"
@@ -26,7 +27,8 @@ struct PictureOrder {
   params::Values values;
   std::shared_ptr<const LensState> lens;
   std::vector<StarLight> stars = {};  // of all lights, in their order; empty: drafts render starbursts themselves
-  std::vector<Ghost> brightest;  // of a similar light, brightest first: drafts that are late draw these only
+  std::shared_ptr<const Plate> plate = nullptr;  // the flare is added to it; null: to black
+  std::vector<Ghost> brightest = {};  // of a similar light, brightest first: drafts that are late draw these only
 };
 
 enum class PictureKind { Draft, Refined };
@@ -35,6 +37,8 @@ struct PictureAnswer {
   std::uint64_t revision = 0;
   PictureKind kind = PictureKind::Draft;
   std::shared_ptr<const Image> image;  // null where there is an error
+  bool has_plate = false;
+  ColourSpace space = ColourSpace::Rec709;
   double pixel_area = 1.0;  // of the whole picture's, in which a pixel's value is that much less
   double time_ms = 0;
   int ghosts = 0;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,11 +14,20 @@
 #include <vector>
 
 #include "studio/core/autosave.h"
+#include "studio/core/compare.h"
 #include "studio/core/display_job.h"
 #include "studio/core/document.h"
+#include "studio/core/exports.h"
 #include "studio/core/figures_job.h"
+#include "studio/core/frame_cache.h"
+#include "studio/core/frame_export.h"
 #include "studio/core/history.h"
+#include "studio/core/looks.h"
+#include "studio/core/measured_view.h"
 #include "studio/core/picture_job.h"
+#include "studio/core/plates.h"
+#include "studio/core/point_spread.h"
+#include "studio/core/view.h"
 
 namespace contrejour::studio {
 
@@ -27,18 +37,10 @@ struct Selection {
   int surface = 0;  // 1-based; 0: none
 };
 
-// The parts of the view that are saved with a session, apart from its content.
-struct View {
-  double zoom = 1.0;  // of the picture that just fits
-  Vec2 pan;  // of its middle, in parts of the fitting picture's size
-  ViewTransform transform = ViewTransform::Preview;
-  bool shows_handles = true;
-  bool shows_ghosts = true;  // outline of the selected ghost
-};
-
 struct StudioSettings {
   std::function<void()> wake = {};  // called on other threads when an answer can be taken
   std::filesystem::path autosave_folder = {};
+  LookFolders looks = {};
 };
 
 class Studio {
@@ -55,11 +57,34 @@ class Studio {
 
   bool open_session(const std::string& file);
   bool open_lens(const std::string& name_or_file);  // a step of the history
+  // Reads it in the background; a step of the history once it is there.
   bool open_plate(const std::string& file);
+  void close_plate();
+  // Finds the plate's lights in the background; a step of the history that puts them in place of the lights. False:
+  // there is no plate.
+  bool detect_lights();
+  bool save_look(const std::string& name);  // among the user's own
   bool recover(const LostWork& work);
   bool save_session(const std::string& file);
-  // Renders the picture again at full quality and writes it, by the extension, on another thread.
-  bool export_picture(const std::string& file);
+  // Renders again at full quality and writes it, by the extension, on another thread.
+  bool export_as(ExportKind kind, const std::string& file, LayersBy layers_by = LayersBy::Part);
+  void stop_exporting_frames();
+
+  // A measured flare is looked at beside the document, of which it is no part.
+  void open_measured(const std::string& file) { measured_job_.post({file, 0}); }
+  void choose_measured_angle(double angle_deg) { measured_job_.post({measured_.file, angle_deg}); }
+
+  // Keys and frames (keys.h). What has keys is at its value of the frame; this is no step of the history.
+  void go_to_frame(int frame);
+  void play(bool plays);
+  [[nodiscard]] bool is_playing() const { return playing_since_.has_value(); }
+  [[nodiscard]] const FrameCache& frame_cache() const { return *frame_cache_; }
+
+  // Snapshots of the refined picture. False: there is none yet.
+  bool take_snapshot();
+  void remove_snapshot(std::size_t index);
+  bool restore_snapshot(std::size_t index);  // a step of the history
+  void set_compare(const CompareView& compare);
 
   // Takes answers; posts work that the document's changes ask for. Once per frame of the interface.
   void update();
@@ -80,8 +105,20 @@ class Studio {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   [[nodiscard]] std::uint64_t shown_count() const { return shown_count_; }  // of pictures taken so far
   [[nodiscard]] const std::vector<GhostFigures>& figures() const { return figures_; }
+  [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // of the first figures
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
+  [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate); }
+  [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
+  [[nodiscard]] const CompareView& compare_view() const { return compare_; }
+  [[nodiscard]] const std::optional<Comparison>& comparison() const { return comparison_; }
+  [[nodiscard]] const std::vector<Look>& looks() const { return looks_; }
+  [[nodiscard]] const Thumbnails& thumbnails() const { return thumbnails_; }
+  [[nodiscard]] const PointSpreadAnswer& point_spread() const { return point_spread_; }
+  [[nodiscard]] std::uint64_t point_spread_count() const { return point_spread_count_; }  // of those taken so far
+  [[nodiscard]] const MeasuredAnswer& measured() const { return measured_; }
+  [[nodiscard]] std::uint64_t measured_count() const { return measured_count_; }
+  [[nodiscard]] const FramesAnswer& exported_frames() const { return exported_frames_; }
 
   Selection selection;
   View view;
@@ -89,13 +126,19 @@ class Studio {
   void refresh_section();  // another ghost or light was selected
   void select_ghost(std::optional<Ghost> ghost);
   void select_light(std::size_t light);
+  // A panel that shows them asks for them while it is open: they cost time that the picture needs.
+  void want_point_spread(bool wanted);
+  void want_thumbnails();
 
   [[nodiscard]] std::vector<LostWork> lost_work() const { return autosave_.lost_work(); }
   void autosave_now() { static_cast<void>(autosave_.save(document(), file_, true)); }
   void forget_autosave() { autosave_.forget(); }
 
  private:
+  // After an edit, whose changes become keys; in place of the document before; as it is.
   bool adopt(Result<Document> document, const std::string& name, const std::string& merge_key);
+  bool adopt_whole(Result<Document> document, const std::string& name, const std::string& merge_key);
+  bool push(Result<Document> document, const std::string& name, const std::string& merge_key);
   bool refuse(const Error& error, const std::string& key);
   void document_changed();
   void post_work();
@@ -104,16 +147,39 @@ class Studio {
   void take_section(SectionAnswer section);
   void take_problem(const std::string& problem);
   void say(std::string message);
+  void take_plate(PlateAnswer answer);
+  void take_detection(const DetectionAnswer& answer);
+  void take_exported_frames(const FramesAnswer& answer);
+  void take_background_work();
+  void show_playing_frame();
+  void post_point_spread();
+  void post_comparison();
+  bool export_frames(const std::string& pattern);
 
   History history_;
   std::shared_ptr<const LensState> lens_;
   std::uint64_t revision_ = 1, figures_revision_ = 0, shown_count_ = 0, changes_ = 0;
   std::string problem_, problem_key_, message_, file_;
-  std::shared_ptr<const Image> plate_;
   DisplayAnswer shown_;
   PictureAnswer picture_;
   std::vector<GhostFigures> figures_;
+  std::vector<GhostFootprint> footprints_;
   SectionAnswer section_;
+  std::vector<Snapshot> snapshots_;
+  std::size_t snapshots_taken_ = 0;
+  CompareView compare_;
+  std::optional<Comparison> comparison_;
+  LookFolders look_folders_;
+  std::vector<Look> looks_;
+  Thumbnails thumbnails_;
+  PointSpreadAnswer point_spread_;
+  std::uint64_t point_spread_count_ = 0, measured_count_ = 0;
+  MeasuredAnswer measured_;
+  bool wants_point_spread_ = false;
+  FramesAnswer exported_frames_;
+  std::shared_ptr<FrameCache> frame_cache_ = std::make_shared<FrameCache>();
+  std::optional<std::chrono::steady_clock::time_point> playing_since_;
+  int playing_from_ = 1;
   Autosave autosave_;
 
   // Last: their threads end before what they use.
@@ -122,6 +188,14 @@ class Studio {
   FiguresJob figures_job_;
   SectionJob section_job_;
   LatestJob<std::function<std::string()>, std::string> export_job_;
+  Plates plates_;
+  DetectionJob detection_job_;
+  CompareJob compare_job_;
+  ThumbnailJob thumbnail_job_;
+  PointSpreadJob point_spread_job_;
+  FramesJob frames_job_;
+  CacheJob cache_job_;
+  MeasuredJob measured_job_;
 };
 
 }  // namespace contrejour::studio

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dialogs: files to open and to save, export with its command line, recovery, unsaved changes.
+// Dialogs: files to open and to save, recovery, unsaved changes.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "studio/core/command_line.h"
+#include "contrejour/expert/flare_source.h"
+#include "studio/ui/file_dialog.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
@@ -46,7 +48,8 @@ std::filesystem::path folder_of(const std::string& path) {
 void draw_folder(Ui& ui) {
   const auto folder = folder_of(ui.state.path);
   ImGui::TextDisabled("%s", folder.string().c_str());
-  ImGui::BeginChild("##folder", {scaled(560), scaled(260)}, true);
+  const float room = ImGui::GetIO().DisplaySize.y - scaled(330);  // what is above and below it in the largest dialog
+  ImGui::BeginChild("##folder", {scaled(560), std::clamp(room, scaled(80), scaled(260))}, true);
   if (ImGui::Selectable("..")) ui.state.path = folder.parent_path().string() + "/";
   for (const FolderEntry& entry : entries_of(folder))
     if (ImGui::Selectable((entry.name + (entry.is_folder ? "/" : "")).c_str(), false,
@@ -55,25 +58,13 @@ void draw_folder(Ui& ui) {
   ImGui::EndChild();
 }
 
-// The path, then a folder's files, then the button that does it; Enter does it, too.
-void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act) {
-  ImGui::SetNextItemWidth(scaled(560));
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##path", &ui.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.registry.record("dialog/path", ui.state.path);
-  draw_folder(ui);
-  if (!ui.studio.problem().empty()) {
-    ImGui::PushTextWrapPos(scaled(560));
-    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kBad), "%s", ui.studio.problem().c_str());
-    ImGui::PopTextWrapPos();
-  }
-  const bool acts = button(ui, "dialog/accept", action, nullptr, {scaled(110), 0}) || entered;
-  ImGui::SameLine();
-  if (button(ui, "dialog/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
-  if (acts && !ui.state.path.empty() && act()) ImGui::CloseCurrentPopup();
-}
-
 bool open_file(Ui& ui) {
+  if (is_measured_flare(ui.state.path)) {
+    ui.studio.open_measured(ui.state.path);
+    ui.state.bottom = BottomTab::Measured;
+    ui.state.bottom_was_chosen = true;
+    return true;
+  }
   return is_session(ui.state.path) ? ui.studio.open_session(ui.state.path) : ui.studio.open_lens(ui.state.path);
 }
 
@@ -81,29 +72,6 @@ bool save_file(Ui& ui) {
   if (!is_session(ui.state.path)) ui.state.path += ".session.json";
   const bool saved = ui.studio.save_session(ui.state.path);
   return saved;
-}
-
-void draw_command(Ui& ui, const char* what, const std::string& id, const std::string& command) {
-  if (command.empty()) return;
-  ImGui::TextDisabled("%s", what);
-  std::string shown = command;
-  ImGui::SetNextItemWidth(scaled(484));
-  ImGui::InputText(("##" + id).c_str(), &shown, ImGuiInputTextFlags_ReadOnly);
-  ui.registry.record("export/" + id, command);
-  ImGui::SameLine();
-  if (button(ui, "export/" + id + "/copy", "Copy", nullptr, {scaled(68), 0})) ImGui::SetClipboardText(command.c_str());
-}
-
-void draw_export(Ui& ui) {
-  const std::string& file = ui.studio.file();
-  draw_command(ui, "The command line that makes the same picture:", "command",
-               command_of_values(ui.studio.document(), ui.state.path));
-  draw_command(ui, "Or from the saved session:", "session-command",
-               file.empty() || !ui.studio.is_saved() ? "" : command_of_session(file, ui.state.path));
-  if (file.empty() || !ui.studio.is_saved())
-    ImGui::TextDisabled("Save the session to have a command line that needs no other file.");
-  ImGui::Spacing();
-  draw_file_dialog(ui, "Export", [&] { return ui.studio.export_picture(ui.state.path); });
 }
 
 void draw_recovery(Ui& ui) {
@@ -149,7 +117,7 @@ void draw_content(Ui& ui) {
     case Dialog::OpenLens: return draw_file_dialog(ui, "Open", [&] { return open_file(ui); });
     case Dialog::OpenPlate: return draw_file_dialog(ui, "Open", [&] { return ui.studio.open_plate(ui.state.path); });
     case Dialog::SaveAs: return draw_file_dialog(ui, "Save", [&] { return save_file(ui); });
-    case Dialog::Export: return draw_export(ui);
+    case Dialog::Export: return draw_export_dialog(ui);
     case Dialog::Recover: return draw_recovery(ui);
     case Dialog::Quit: return draw_quit(ui);
     case Dialog::None: return;
@@ -157,17 +125,29 @@ void draw_content(Ui& ui) {
 }
 
 const char* title_of(Dialog dialog) {
-  static constexpr const char* titles[] = {"",
-                                           "Open a lens or a session",
-                                           "Open a plate",
-                                           "Save the session",
-                                           "Export the picture",
-                                           "Recover unsaved work",
-                                           "Unsaved changes"};
+  static constexpr const char* titles[] = {"",       "Open a lens or a session", "Open a plate",   "Save the session",
+                                           "Export", "Recover unsaved work",     "Unsaved changes"};
   return titles[static_cast<std::size_t>(dialog)];
 }
 
 }  // namespace
+
+void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act) {
+  ImGui::SetNextItemWidth(scaled(560));
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputText("##path", &ui.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.registry.record("dialog/path", ui.state.path);
+  draw_folder(ui);
+  if (!ui.studio.problem().empty()) {
+    ImGui::PushTextWrapPos(scaled(560));
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kBad), "%s", ui.studio.problem().c_str());
+    ImGui::PopTextWrapPos();
+  }
+  const bool acts = button(ui, "dialog/accept", action, nullptr, {scaled(110), 0}) || entered;
+  ImGui::SameLine();
+  if (button(ui, "dialog/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
+  if (acts && !ui.state.path.empty() && act()) ImGui::CloseCurrentPopup();
+}
 
 void draw_dialogs(Ui& ui) {
   if (ui.state.dialog == Dialog::None) return;

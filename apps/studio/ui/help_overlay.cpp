@@ -16,7 +16,7 @@ void draw_group(std::string_view group) {
   for (const KeyCommand& key : all_keys()) {
     if (key.group != group || *key.what == '\0') continue;
     ImGui::TextUnformatted(key.shown);
-    ImGui::SameLine(scaled(136));
+    ImGui::SameLine(scaled(104));
     ImGui::TextDisabled("%s", key.what);
   }
   ImGui::Spacing();
@@ -36,13 +36,17 @@ void draw_help_overlay(Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##help", nullptr, flags);
   ImGui::SetWindowFocus();
-  ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(scaled(8), scaled(2)));
+  ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   for (const char* group : {"Files", "History", "Lights"}) draw_group(group);
   ImGui::TableNextColumn();
-  for (const char* group : {"Ghosts", "View", "Panels"}) draw_group(group);
+  for (const char* group : {"Ghosts", "View", "Compare"}) draw_group(group);
+  ImGui::TableNextColumn();
+  for (const char* group : {"Frames", "Panels"}) draw_group(group);
   ImGui::EndTable();
+  ImGui::PopStyleVar();
   ImGui::TextDisabled(
       "Wheel: zoom.  Right button: pan.  Click: the ghost there.  Ctrl+click a number to type it.  Esc closes this.");
   ui.registry.record("help");

@@ -87,6 +87,8 @@ int key_called(std::string_view name) {
   if (name.size() == 1 && name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
   if (name.size() == 1 && name[0] >= '0' && name[0] <= '9') return GLFW_KEY_0 + (name[0] - '0');
   if (name.size() == 2 && name[0] == 'f' && name[1] >= '1' && name[1] <= '9') return GLFW_KEY_F1 + (name[1] - '1');
+  if (name.size() == 3 && name.starts_with("f1") && name[2] >= '0' && name[2] <= '2')
+    return GLFW_KEY_F10 + (name[2] - '0');
   return 0;
 }
 

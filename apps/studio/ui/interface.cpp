@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include <imgui_internal.h>
 
+#include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/plate.h"
 #include "studio/ui/keys.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
@@ -25,7 +26,19 @@ constexpr ImGuiWindowFlags kChildFlags = ImGuiWindowFlags_AlwaysUseWindowPadding
 template <class Tab, std::size_t Count>
 void draw_tabs(WidgetRegistry& registry, const char* bar, const std::array<const char*, Count>& names, Tab& chosen,
                bool& was_chosen) {
-  if (!ImGui::BeginTabBar(bar)) return;
+  // In a narrow panel the tabs are narrower, so that none is cut off.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = 0;
+  for (const char* name : names)
+    width += ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x + style.ItemInnerSpacing.x;
+  const bool is_narrow = width > ImGui::GetContentRegionAvail().x;
+  if (is_narrow)
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.5F * style.FramePadding.x, style.FramePadding.y));
+  const bool is_open = ImGui::BeginTabBar(bar);
+  const auto end_style = [&] {
+    if (is_narrow) ImGui::PopStyleVar();
+  };
+  if (!is_open) return end_style();
   for (std::size_t k = 0; k < Count; ++k) {
     const auto tab = static_cast<Tab>(k);
     const ImGuiTabItemFlags flags = was_chosen && tab == chosen ? ImGuiTabItemFlags_SetSelected : 0;
@@ -37,6 +50,7 @@ void draw_tabs(WidgetRegistry& registry, const char* bar, const std::array<const
   }
   was_chosen = false;
   ImGui::EndTabBar();
+  end_style();
 }
 
 // A border that is dragged; `size` is that of the panel behind it, at scale 1.
@@ -71,20 +85,34 @@ void Interface::take_picture() {
 void Interface::draw_side(float width, float height) {
   Ui ui{studio_, state_, registry_};
   ImGui::BeginChild("##side", {width, height}, false, kChildFlags);
-  static constexpr std::array names = {"Ghosts", "Lights", "Parameters", "History"};
+  static constexpr std::array names = {"Ghosts", "Lights", "Looks", "Parameters", "History"};
   draw_tabs(registry_, "##side-tabs", names, state_.side, state_.side_was_chosen);
-  static constexpr std::array draw = {draw_ghosts_panel, draw_lights_panel, draw_parameters_panel, draw_history_panel};
-  draw[static_cast<std::size_t>(state_.side)](ui);
+  switch (state_.side) {
+    case SideTab::Ghosts: draw_ghosts_panel(ui); break;
+    case SideTab::Lights: draw_lights_panel(ui); break;
+    case SideTab::Looks: draw_looks_panel(ui, textures_); break;
+    case SideTab::Parameters: draw_parameters_panel(ui); break;
+    case SideTab::History: draw_history_panel(ui); break;
+  }
   ImGui::EndChild();
 }
 
 void Interface::draw_bottom(float width, float height) {
   Ui ui{studio_, state_, registry_};
   ImGui::BeginChild("##bottom", {width, height}, false, kChildFlags);
-  static constexpr std::array names = {"Section", "Prescription", "Coatings"};
+  static constexpr std::array names = {"Section",  "Prescription", "Coatings", "Iris",
+                                       "Timeline", "Compare",      "Measured"};
   draw_tabs(registry_, "##bottom-tabs", names, state_.bottom, state_.bottom_was_chosen);
-  static constexpr std::array draw = {draw_section_panel, draw_prescription_panel, draw_coatings_panel};
-  draw[static_cast<std::size_t>(state_.bottom)](ui);
+  if (state_.bottom != BottomTab::Iris) studio_.want_point_spread(false);
+  switch (state_.bottom) {
+    case BottomTab::Section: draw_section_panel(ui); break;
+    case BottomTab::Prescription: draw_prescription_panel(ui); break;
+    case BottomTab::Coatings: draw_coatings_panel(ui); break;
+    case BottomTab::Iris: draw_iris_panel(ui, textures_); break;
+    case BottomTab::Timeline: draw_timeline_panel(ui); break;
+    case BottomTab::Compare: draw_compare_panel(ui, textures_); break;
+    case BottomTab::Measured: draw_measured_panel(ui, textures_); break;
+  }
   ImGui::EndChild();
 }
 
@@ -149,13 +177,20 @@ void Interface::draw_frame() {
   draw_help_overlay(ui);
 }
 
-bool Interface::needs_frame() const { return frames_ < 4 || state_.dialog_opens || ImGui::GetIO().WantTextInput; }
+bool Interface::needs_frame() const {
+  return frames_ < 4 || state_.dialog_opens || ImGui::GetIO().WantTextInput || studio_.is_playing();
+}
 
 void Interface::open_file(const std::string& file) {
-  const std::string extension = std::filesystem::path(file).extension().string();
+  if (is_measured_flare(file)) {
+    studio_.open_measured(file);
+    state_.bottom = BottomTab::Measured;
+    state_.bottom_was_chosen = true;
+    return;
+  }
   if (is_session(file))
     studio_.open_session(file);
-  else if (extension == ".exr" || extension == ".png")
+  else if (is_plate_name(file))
     studio_.open_plate(file);
   else
     studio_.open_lens(file);

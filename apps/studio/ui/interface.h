@@ -42,6 +42,7 @@ class Interface {
   WidgetRegistry registry_;
   Pace pace_;
   Texture picture_;
+  TextureSet textures_;
   std::uint64_t frames_ = 0, shown_count_ = 0;
 };
 

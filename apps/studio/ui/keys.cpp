@@ -77,6 +77,18 @@ void remove_light(Ui& ui) {
     ui.studio.edit(fmt::format("remove light {}", k + 1), "", [&](const Document& d) { return without_light(d, k); });
 }
 
+void set_compare_mode(Ui& ui, CompareMode mode) {
+  CompareView compare = ui.studio.compare_view();
+  compare.mode = compare.mode == mode ? CompareMode::Off : mode;
+  if (!ui.studio.snapshots().empty()) ui.studio.set_compare(compare);
+}
+
+void key_light(Ui& ui) {
+  const TrackId track{"", ui.studio.selection.light, LightPart::Position};
+  ui.studio.edit(fmt::format("key of light {}", track.light + 1), "",
+                 [&](const Document& d) { return with_key(d, track, ui.studio.view.frame); });
+}
+
 void show_side(Ui& ui, SideTab tab) {
   ui.state.side = tab;
   ui.state.side_was_chosen = true;
@@ -103,11 +115,11 @@ constexpr std::array kKeys = {
     KeyCommand{"ctrl+shift+s", "Ctrl+Shift+S", "Files", "save under another name",
                [](Ui& ui) { open_dialog(ui, Dialog::SaveAs, ui.studio.file()); }},
     KeyCommand{"ctrl+e", "Ctrl+E", "Files", "export the picture",
-               [](Ui& ui) { open_dialog(ui, Dialog::Export, "flare.exr"); }},
+               [](Ui& ui) { open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind)); }},
     KeyCommand{"ctrl+z", "Ctrl+Z", "History", "undo", [](Ui& ui) { ui.studio.undo(); }},
     KeyCommand{"ctrl+shift+z", "Ctrl+Shift+Z", "History", "redo", [](Ui& ui) { ui.studio.redo(); }},
     KeyCommand{"ctrl+y", "Ctrl+Y", "History", "redo", [](Ui& ui) { ui.studio.redo(); }},
-    KeyCommand{"left", "Arrows", "Lights", "move the light by a pixel (Shift: 10)", [](Ui& ui) { nudge(ui, -1, 0); }},
+    KeyCommand{"left", "Arrows", "Lights", "move the light (Shift: by 10)", [](Ui& ui) { nudge(ui, -1, 0); }},
     KeyCommand{"right", "", "Lights", "", [](Ui& ui) { nudge(ui, 1, 0); }},
     KeyCommand{"up", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, -1); }},
     KeyCommand{"down", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, 1); }},
@@ -116,12 +128,14 @@ constexpr std::array kKeys = {
     KeyCommand{"shift+up", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, -10); }},
     KeyCommand{"shift+down", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, 10); }},
     KeyCommand{"l", "L", "Lights", "add a light (or double-click)", add_light},
+    KeyCommand{"shift+l", "Shift+L", "Lights", "lights where the plate is bright",
+               [](Ui& ui) { ui.studio.detect_lights(); }},
     KeyCommand{"delete", "Delete", "Lights", "remove the selected light", remove_light},
     KeyCommand{"]", "]", "Ghosts", "the next dimmer ghost", [](Ui& ui) { step_ghost(ui, 1); }},
     KeyCommand{"[", "[", "Ghosts", "the next brighter ghost", [](Ui& ui) { step_ghost(ui, -1); }},
     KeyCommand{"s", "S", "Ghosts", "the selected ghost alone", [](Ui& ui) { toggle_ghost(ui, true); }},
     KeyCommand{"m", "M", "Ghosts", "mute the selected ghost", [](Ui& ui) { toggle_ghost(ui, false); }},
-    KeyCommand{"g", "G", "Ghosts", "only ghosts of the selected surface", show_ghosts_of_surface},
+    KeyCommand{"g", "G", "Ghosts", "only ghosts of the surface", show_ghosts_of_surface},
     KeyCommand{"a", "A", "Ghosts", "show all ghosts",
                [](Ui& ui) {
                  ui.studio.edit("show all ghosts", "",
@@ -138,6 +152,18 @@ constexpr std::array kKeys = {
                [](Ui& ui) { ui.studio.view.shows_handles = !ui.studio.view.shows_handles; }},
     KeyCommand{"tab", "Tab", "View", "panels on or off",
                [](Ui& ui) { ui.state.shows_panels = !ui.state.shows_panels; }},
+    KeyCommand{"c", "C", "Compare", "take a snapshot", [](Ui& ui) { ui.studio.take_snapshot(); }},
+    KeyCommand{"w", "W", "Compare", "wipe to the snapshot", [](Ui& ui) { set_compare_mode(ui, CompareMode::Wipe); }},
+    KeyCommand{"d", "D", "Compare", "difference from the snapshot",
+               [](Ui& ui) { set_compare_mode(ui, CompareMode::Difference); }},
+    KeyCommand{"space", "Space", "Frames", "play, or stop", [](Ui& ui) { ui.studio.play(!ui.studio.is_playing()); }},
+    KeyCommand{",", ",", "Frames", "the frame before", [](Ui& ui) { ui.studio.go_to_frame(ui.studio.view.frame - 1); }},
+    KeyCommand{".", ".", "Frames", "the next frame", [](Ui& ui) { ui.studio.go_to_frame(ui.studio.view.frame + 1); }},
+    KeyCommand{"home", "Home", "Frames", "the first frame",
+               [](Ui& ui) { ui.studio.go_to_frame(ui.studio.view.first_frame); }},
+    KeyCommand{"end", "End", "Frames", "the last frame",
+               [](Ui& ui) { ui.studio.go_to_frame(ui.studio.view.last_frame); }},
+    KeyCommand{"k", "K", "Frames", "key the selected light here", key_light},
     KeyCommand{"f1", "F1", "View", "these keys", [](Ui& ui) { ui.state.shows_help = !ui.state.shows_help; }},
     KeyCommand{"f2", "F2", "Panels", "section of the lens", [](Ui& ui) { show_bottom(ui, BottomTab::Section); }},
     KeyCommand{"f3", "F3", "Panels", "prescription", [](Ui& ui) { show_bottom(ui, BottomTab::Prescription); }},
@@ -146,13 +172,19 @@ constexpr std::array kKeys = {
     KeyCommand{"f6", "F6", "Panels", "lights", [](Ui& ui) { show_side(ui, SideTab::Lights); }},
     KeyCommand{"f7", "F7", "Panels", "parameters", [](Ui& ui) { show_side(ui, SideTab::Parameters); }},
     KeyCommand{"f8", "F8", "Panels", "history", [](Ui& ui) { show_side(ui, SideTab::History); }},
+    KeyCommand{"f9", "F9", "Panels", "looks", [](Ui& ui) { show_side(ui, SideTab::Looks); }},
+    KeyCommand{"f10", "F10", "Panels", "iris, starburst, dirt", [](Ui& ui) { show_bottom(ui, BottomTab::Iris); }},
+    KeyCommand{"f11", "F11", "Panels", "timeline", [](Ui& ui) { show_bottom(ui, BottomTab::Timeline); }},
+    KeyCommand{"f12", "F12", "Panels", "compare", [](Ui& ui) { show_bottom(ui, BottomTab::Compare); }},
+    KeyCommand{"shift+f12", "Shift+F12", "Panels", "measured flare",
+               [](Ui& ui) { show_bottom(ui, BottomTab::Measured); }},
 };
 
 // These move between widgets where a panel has the keyboard.
 bool belongs_to_viewport(const char* chord) {
   const std::string_view keys(chord);
-  return keys == "tab" || keys.ends_with("left") || keys.ends_with("right") || keys.ends_with("up") ||
-         keys.ends_with("down");
+  return keys == "tab" || keys == "space" || keys == "home" || keys == "end" || keys.ends_with("left") ||
+         keys.ends_with("right") || keys.ends_with("up") || keys.ends_with("down");
 }
 
 bool is_modifier(int key) {

@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lights: position, brightness, colour, size, distance, each as the command line takes it.
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "contrejour/expert/parameter_text.h"
 #include "studio/core/lights.h"
 #include "studio/ui/panels.h"
+#include "studio/ui/parameter_widgets.h"
 #include "studio/ui/theme.h"
 
 namespace contrejour::studio {
 namespace {
 
-void field(Ui& ui, std::size_t index, const char* name, const char* hint, const char* help,
-           std::string LightEntry::* member) {
+void light_key(Ui& ui, std::size_t index, LightPart part) {
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(22));
+  key_button(ui, fmt::format("lights/{}/{}/key", index + 1, name_of(part)), {"", index, part});
+}
+
+struct LightField {
+  const char* name;
+  const char* hint;
+  const char* help;
+  std::string LightEntry::* member;
+  LightPart part;
+};
+
+void field(Ui& ui, std::size_t index, const LightField& f) {
+  const auto& [name, hint, help, member, part] = f;
   LightEntry light = lights_of(ui.studio.document())[index];
   const std::string id = fmt::format("lights/{}/{}", index + 1, name);
   ImGui::AlignTextToFramePadding();
@@ -21,7 +36,9 @@ void field(Ui& ui, std::size_t index, const char* name, const char* hint, const 
   tip(help);
   ImGui::SameLine(scaled(92));
   std::string text = light.*member;
-  if (!text_field(ui, id, text, -1, hint) || text == light.*member) return;
+  const bool is_entered = text_field(ui, id, text, ImGui::GetContentRegionAvail().x - scaled(26), hint);
+  light_key(ui, index, part);
+  if (!is_entered || text == light.*member) return;
   light.*member = text;
   if (!ui.studio.edit(fmt::format("{} of light {}", name, index + 1), "",
                       [&](const Document& d) { return with_light(d, index, light); }))
@@ -35,7 +52,7 @@ void position_field(Ui& ui, std::size_t index) {
   ImGui::TextDisabled("position");
   tip("u, v of its image: 0, 0 is the frame's top left corner and 1, 1 its bottom right one");
   ImGui::SameLine(scaled(92));
-  ImGui::SetNextItemWidth(-1);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - scaled(26));
   ImGui::PushID(static_cast<int>(index));
   if (ImGui::DragFloat2("##position", uv, 0.001F, -20, 20, "%.4f"))
     ui.studio.edit(fmt::format("move light {}", index + 1), fmt::format("light/{}/at", index), [&](const Document& d) {
@@ -44,6 +61,7 @@ void position_field(Ui& ui, std::size_t index) {
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
   ImGui::PopID();
   ui.registry.record(fmt::format("lights/{}/position", index + 1), fmt::format("{},{}", uv[0], uv[1]));
+  light_key(ui, index, LightPart::Position);
 }
 
 // A slider over ten stops to each side, where the value is a plain number.
@@ -55,7 +73,7 @@ void brightness_slider(Ui& ui, std::size_t index) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("brightness");
   ImGui::SameLine(scaled(92));
-  ImGui::SetNextItemWidth(-1);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - scaled(26));
   ImGui::PushID(static_cast<int>(index) + 1000);
   if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, "%.4g", ImGuiSliderFlags_Logarithmic)) {
     light.value = fmt::format("{:.5g}", amount);
@@ -86,12 +104,26 @@ bool draw_light(Ui& ui, std::size_t index) {
     return false;
   position_field(ui, index);
   brightness_slider(ui, index);
-  field(ui, index, "value", "1", "The sum of its direct image, or R,G,B, or 12stops, 100000lx, 800cd, 1.6e9nits",
-        &LightEntry::value);
-  field(ui, index, "colour", "D65", "D65, A, a temperature such as 3200K, led, sodium, R,G,B", &LightEntry::colour);
-  field(ui, index, "size", "0", "Angular diameter in degrees; 0.53 for the sun; 0: a point", &LightEntry::size);
-  field(ui, index, "distance", "inf", "From the first surface: 500 (mm), 2m, inf", &LightEntry::distance);
+  static constexpr LightField kFields[] = {
+      {"value", "1", "The sum of its direct image, or R,G,B, or 12stops, 100000lx, 800cd, 1.6e9nits",
+       &LightEntry::value, LightPart::Value},
+      {"colour", "D65", "D65, A, a temperature such as 3200K, led, sodium, R,G,B", &LightEntry::colour,
+       LightPart::Colour},
+      {"size", "0", "Angular diameter in degrees; 0.53 for the sun; 0: a point", &LightEntry::size, LightPart::Size},
+      {"distance", "inf", "From the first surface: 500 (mm), 2m, inf", &LightEntry::distance, LightPart::Distance}};
+  for (const LightField& f : kFields) field(ui, index, f);
   return true;
+}
+
+void draw_plate_line(Ui& ui) {
+  const Document& document = ui.studio.document();
+  if (!document.has_plate()) return;
+  const std::string name = std::filesystem::path(document.plate.file).filename().string();
+  ImGui::AlignTextToFramePadding();
+  fitting_text(fmt::format("Plate: {}", name), ImGui::GetContentRegionAvail().x - scaled(70), colours::kDim);
+  ui.registry.record("lights/plate", document.plate.file);
+  align_right({"Close"});
+  if (button(ui, "lights/plate/close", "Close", "The flare on black again")) ui.studio.close_plate();
 }
 
 }  // namespace
@@ -106,6 +138,10 @@ void draw_lights_panel(Ui& ui) {
     if (ui.studio.edit("add light", "", [&](const Document& d) { return with_new_light(d, light); }))
       ui.studio.select_light(count);
   }
+  ImGui::SameLine();
+  if (button(ui, "lights/detect", "From plate", "Lights where the plate is bright, in place of these (Shift+L)"))
+    ui.studio.detect_lights();
+  draw_plate_line(ui);
   ImGui::BeginChild("##lights");
   for (std::size_t k = 0; k < lights_of(ui.studio.document()).size(); ++k) {
     ImGui::Spacing();

@@ -112,7 +112,7 @@ int run(const Options& options) {
   if (!window) return fail(window.error());
   const std::filesystem::path copies =
       options.state_folder.empty() ? state_folder() : std::filesystem::path(options.state_folder);
-  Studio studio("first scene", first_document(), {Window::wake, copies});
+  Studio studio("first scene", first_document(), {Window::wake, copies, usual_look_folders()});
   Interface interface(studio);
   if (!options.file.empty()) interface.open_file(options.file);
   return run_frames(**window, interface, script);

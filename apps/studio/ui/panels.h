@@ -16,7 +16,12 @@ void draw_coatings_panel(Ui& ui);
 void draw_ghosts_panel(Ui& ui);
 void draw_lights_panel(Ui& ui);
 void draw_parameters_panel(Ui& ui);
+void draw_looks_panel(Ui& ui, TextureSet& textures);
 void draw_history_panel(Ui& ui);
+void draw_iris_panel(Ui& ui, TextureSet& textures);
+void draw_timeline_panel(Ui& ui);
+void draw_compare_panel(Ui& ui, TextureSet& textures);
+void draw_measured_panel(Ui& ui, TextureSet& textures);
 void draw_dialogs(Ui& ui);
 void draw_help_overlay(Ui& ui);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The section of the lens: glass, stop, sensor, rays that form the image or those of the selected ghost. A click on a
-// surface selects it.
+// surface selects it; a drag moves or bends it.
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -119,6 +120,40 @@ void draw_number(ImDrawList& list, ImVec2 at, int surface, ImU32 colour) {
                text.c_str());
 }
 
+constexpr float kLeastDrag_px = 3;
+
+void begin_surface_drag(Ui& ui, const SectionMap& map, int surface) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const auto& lens = ui.studio.document().lens;
+  const auto row = static_cast<std::size_t>(surface) - 1;
+  if (row >= lens->surfaces.size()) return;  // plates before the sensor are settings
+  const double height = static_cast<double>((map.origin.y - mouse.y) / map.scale);
+  ui.state.surface_drag = {true, false, surface, grip_at(lens->surfaces[row], height), mouse.x, map.scale, lens};
+}
+
+// The drawing may scale itself anew while the lens grows: the drag keeps the scale with which it began.
+void drag_surface(Ui& ui) {
+  SurfaceDrag& drag = ui.state.surface_drag;
+  if (!drag.on) return;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (drag.has_moved) ui.studio.end_gesture();
+    drag = {};
+    return;
+  }
+  const float by = ImGui::GetIO().MousePos.x - drag.from_x;
+  if (!drag.has_moved && std::fabs(by) < scaled(kLeastDrag_px)) return;
+  if (ImGui::GetIO().MouseDelta.x == 0) return;
+  drag.has_moved = true;
+  const char* what = drag.grip == SurfaceGrip::Vertex ? "move" : "bend";
+  ui.studio.edit(fmt::format("{} surface {}", what, drag.surface), fmt::format("section/{}", drag.surface),
+                 [&](const Document& d) -> Result<Document> {
+                   auto lens = with_surface_dragged(*drag.lens, static_cast<std::size_t>(drag.surface) - 1, drag.grip,
+                                                    static_cast<double>(by / drag.scale));
+                   if (!lens) return tl::unexpected(lens.error());
+                   return with_edited_lens(d, std::move(*lens));
+                 });
+}
+
 void draw_surfaces(Ui& ui, const LensSection& section, const SectionMap& map, bool hovered) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   std::optional<int> nearest;
@@ -144,9 +179,14 @@ void draw_surfaces(Ui& ui, const LensSection& section, const SectionMap& map, bo
     const ImVec2 middle = line[line.size() / 2];
     ui.registry.record(fmt::format("section/surface/{}", number), {middle.x - 3, middle.y - 3},
                        {middle.x + 3, middle.y + 3}, selected ? "selected" : "");
+    const ImVec2 rim = line.front();
+    ui.registry.record(fmt::format("section/surface/{}/rim", number), {rim.x - 2, rim.y}, {rim.x + 2, rim.y + 4});
   }
-  if (nearest) ImGui::SetTooltip("Surface %d", *nearest);
-  if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) ui.studio.selection.surface = nearest.value_or(0);
+  if (nearest && !ui.state.surface_drag.on)
+    ImGui::SetTooltip("Surface %d\nDrag its middle along the axis, its rim to bend it", *nearest);
+  if (!hovered || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
+  ui.studio.selection.surface = nearest.value_or(0);
+  if (nearest) begin_surface_drag(ui, map, *nearest);
 }
 
 void draw_legend(Ui& ui) {
@@ -180,6 +220,7 @@ void draw_section_panel(Ui& ui) {
     draw_rays(list, *section, map);
     draw_stop_and_sensor(list, *section, map);
     draw_surfaces(ui, *section, map, hovered);
+    drag_surface(ui);
   }
   ImGui::PopClipRect();
   ImGui::SetCursorPos({local.x + scaled(4), local.y + scaled(2)});

@@ -73,6 +73,25 @@ Json json_of_selection(const Selection& selection) {
           {"surface", selection.surface}};
 }
 
+Json json_of_tracks(const Document& document) {
+  Json all = Json::object();
+  for (const Track& track : tracks_of(document)) {
+    Json keys = Json::array();
+    for (const Key& key : track.value.keys) keys.push_back({key.frame, text_at(track.value, key.frame)});
+    all[track.label] = keys;
+  }
+  return all;
+}
+
+Json json_of_compare(const Studio& studio) {
+  const auto& figures = studio.comparison();
+  return {{"mode", static_cast<int>(studio.compare_view().mode)},
+          {"edge", studio.compare_view().edge},
+          {"snapshots", studio.snapshots().size()},
+          {"psnr_db", figures && figures->psnr_db ? Json(*figures->psnr_db) : Json()},
+          {"equal", figures && !figures->psnr_db}};
+}
+
 }  // namespace
 
 std::string Interface::state_json() const {
@@ -94,6 +113,14 @@ std::string Interface::state_json() const {
                       {"shown", json_of_shown(studio_.shown())},
                       {"ghosts", json_of_ghosts(studio_.figures())},
                       {"zoom", studio_.view.zoom},
+                      {"frame_of_shot", studio_.view.frame},
+                      {"plays", studio_.is_playing()},
+                      {"cached_frames", studio_.frame_cache().count()},
+                      {"tracks", json_of_tracks(document)},
+                      {"compare", json_of_compare(studio_)},
+                      {"plate", document.plate.file},
+                      {"thumbnails", studio_.thumbnails().size()},
+                      {"clipboard", ImGui::GetClipboardText() != nullptr ? ImGui::GetClipboardText() : ""},
                       {"file", studio_.file()},
                       {"problem", studio_.problem()},
                       {"message", studio_.message()},
@@ -102,7 +129,7 @@ std::string Interface::state_json() const {
                       {"panels", state_.shows_panels},
                       {"idle", studio_.is_idle()},
                       {"frame", frames_},
-                      {"command", command_of_values(document, "flare.exr")},
+                      {"command", command_of_values(document, {})},
                       {"pace", json_of_pace(pace_.summary())},
                       {"widgets", json_of_widgets(registry_)}};
   return state.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

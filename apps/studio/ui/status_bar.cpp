@@ -15,8 +15,8 @@ constexpr std::size_t kNamedGhosts = 5;
 
 std::string ghosts_text(const Ui& ui) {
   const auto& figures = ui.studio.figures();
-  const auto under =
-      ghosts_under(figures, {static_cast<double>(ui.state.probe.x), static_cast<double>(ui.state.probe.y)});
+  const auto under = ghosts_under(
+      figures, {static_cast<double>(ui.state.probe.x), static_cast<double>(ui.state.probe.y)}, ui.studio.footprints());
   if (under.empty()) return "no ghost here";
   std::string text = under.size() == 1 ? "ghost" : "ghosts";
   for (std::size_t k = 0; k < std::min(under.size(), kNamedGhosts); ++k)

@@ -41,6 +41,14 @@ void Texture::set_smooth(bool smooth) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
 }
 
+Texture& TextureSet::get(const std::string& name, std::uint64_t stamp, int width, int height,
+                         std::span<const std::uint32_t> rgba) {
+  Entry& entry = entries_[name];
+  if (entry.texture.is_empty() || entry.stamp != stamp) entry.texture.set(width, height, rgba);
+  entry.stamp = stamp;
+  return entry.texture;
+}
+
 void Texture::clear_canvas(const ImDrawList* /*list*/, const ImDrawCmd* command) {
   const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
   const ImVec4 clip = command->ClipRect;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 
 #include <imgui.h>
 
@@ -28,6 +30,21 @@ class Texture {
  private:
   unsigned int name_ = 0;
   int width_ = 0, height_ = 0;
+};
+
+// Textures by name, each set anew where its pixels have changed.
+class TextureSet {
+ public:
+  // stamp: a number that changes with the pixels.
+  Texture& get(const std::string& name, std::uint64_t stamp, int width, int height,
+               std::span<const std::uint32_t> rgba);
+
+ private:
+  struct Entry {
+    Texture texture;
+    std::uint64_t stamp = 0;
+  };
+  std::map<std::string, Entry> entries_;
 };
 
 }  // namespace contrejour::studio

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "contrejour/preset.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
@@ -31,23 +30,6 @@ void draw_lens_choice(Ui& ui) {
   }
   ImGui::Separator();
   if (ImGui::Selectable("Open a lens file\u2026")) open_dialog(ui, Dialog::OpenLens);
-  ImGui::EndCombo();
-}
-
-void draw_preset_choice(Ui& ui) {
-  ImGui::SetNextItemWidth(scaled(104));
-  const bool open = ImGui::BeginCombo("##look", "Looks", ImGuiComboFlags_HeightLarge);
-  ui.registry.record("toolbar/looks");
-  if (!open) {
-    tip("A bundled look: a lens with its settings, in this scene");
-    return;
-  }
-  for (const params::BundledPreset& preset : params::bundled_presets()) {
-    if (ImGui::Selectable(std::string(preset.name).c_str()))
-      ui.studio.edit(fmt::format("look {}", preset.name), "",
-                     [&](const Document& d) { return document_with_preset(d, std::string(preset.name)); });
-    ui.registry.record(fmt::format("toolbar/looks/{}", preset.name));
-  }
   ImGui::EndCombo();
 }
 
@@ -95,14 +77,12 @@ void draw_history_buttons(Ui& ui) {
 
 void draw_toolbar(Ui& ui) {
   draw_lens_choice(ui);
-  ImGui::SameLine();
-  draw_preset_choice(ui);
   ImGui::SameLine(0, scaled(18));
   draw_lens_numbers(ui);
   ImGui::SameLine(0, scaled(18));
   draw_history_buttons(ui);
   align_right({"Plate", "Open", "Save", "Export", "?"});
-  if (button(ui, "toolbar/plate", "Plate", "A picture behind the flare (EXR or PNG)"))
+  if (button(ui, "toolbar/plate", "Plate", "A photograph to which the flare is added"))
     open_dialog(ui, Dialog::OpenPlate);
   ImGui::SameLine();
   if (button(ui, "toolbar/open", "Open", "A session or a lens file (Ctrl+O)")) open_dialog(ui, Dialog::OpenLens);
@@ -113,9 +93,10 @@ void draw_toolbar(Ui& ui) {
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(250, 196, 118, 255));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, colours::kAccent);
   ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(24, 22, 18, 255));
-  const bool exports = button(ui, "toolbar/export", "Export", "The picture, as EXR or PNG (Ctrl+E)");
+  const bool exports =
+      button(ui, "toolbar/export", "Export", "The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
   ImGui::PopStyleColor(4);
-  if (exports) open_dialog(ui, Dialog::Export, "flare.exr");
+  if (exports) open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind));
   ImGui::SameLine();
   if (button(ui, "toolbar/help", "?", "All keys (F1)")) ui.state.shows_help = !ui.state.shows_help;
 }

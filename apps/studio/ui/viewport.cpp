@@ -64,7 +64,8 @@ void use_wheel_and_pan(Ui& ui, const ViewportMap& map, bool is_hovered) {
 
 // A click selects the brightest ghost there; further clicks at the same place the next ones.
 void select_under_mouse(Ui& ui, const ViewportMap& map) {
-  const auto under = ghosts_under(ui.studio.figures(), map.pixel_of_screen(ImGui::GetIO().MousePos));
+  const auto under =
+      ghosts_under(ui.studio.figures(), map.pixel_of_screen(ImGui::GetIO().MousePos), ui.studio.footprints());
   if (under.empty()) {
     ui.studio.select_ghost(std::nullopt);
     return;
@@ -175,7 +176,8 @@ void draw_viewport(Ui& ui, Texture& picture) {
   draw_picture(ui, map, picture);
   draw_frame_guides(map);
   use_wheel_and_pan(ui, map, hovered);
-  const bool on_handle = use_light_handles(ui, map, hovered);
+  const bool on_edge = use_wipe_edge(ui, map, hovered);
+  const bool on_handle = on_edge || use_light_handles(ui, map, hovered);
   if (!on_handle && hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) select_under_mouse(ui, map);
   probe_pixel(ui, map, hovered);
   draw_selected_ghost(ui, map);

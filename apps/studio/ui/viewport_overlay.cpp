@@ -25,6 +25,28 @@ std::string name_for_people(const Ghost& ghost) {
   return name;
 }
 
+// None where no ray of its grid got through, and for ghosts that are too dim to be traced.
+const GhostFootprint* footprint_called(const Studio& studio, const Ghost& ghost) {
+  for (const GhostFootprint& footprint : studio.footprints())
+    if (footprint.ghost == ghost && !footprint.border_px.empty()) return &footprint;
+  return nullptr;
+}
+
+void draw_border(ImDrawList& list, const ViewportMap& map, const GhostFootprint& footprint) {
+  for (const auto& side : footprint.border_px)
+    list.AddLine(map.screen_of_pixel(side[0]), map.screen_of_pixel(side[1]), colours::kSelected, scaled(1.5F));
+}
+
+void draw_ellipse(ImDrawList& list, ImVec2 at, float rx, float ry) {
+  std::array<ImVec2, kOutlinePoints> points;
+  for (int k = 0; k < kOutlinePoints; ++k) {
+    const float t = 6.2831853F * static_cast<float>(k) / kOutlinePoints;
+    points[static_cast<std::size_t>(k)] = {at.x + rx * std::cos(t), at.y + ry * std::sin(t)};
+  }
+  for (std::size_t k = 0; k + 1 < points.size(); k += 2)
+    list.AddLine(points[k], points[k + 1], colours::kSelected, scaled(1.5F));
+}
+
 }  // namespace
 
 void draw_frame_guides(const ViewportMap& map) {
@@ -36,6 +58,27 @@ void draw_frame_guides(const ViewportMap& map) {
   list.AddLine({middle.x, middle.y - arm}, {middle.x, middle.y + arm}, colour);
 }
 
+bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered) {
+  CompareView compare = ui.studio.compare_view();
+  if (compare.mode != CompareMode::Wipe || ui.studio.snapshots().empty()) return false;
+  const float x = map.screen_of_uv({compare.edge, 0}).x, reach = scaled(6);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const float top = std::fmax(map.canvas_min.y, map.screen_of_uv({0, 0}).y),
+              bottom = std::fmin(map.canvas_max.y, map.screen_of_uv({0, 1}).y);
+  const bool near = is_hovered && std::fabs(mouse.x - x) < reach && mouse.y > top && mouse.y < bottom;
+  if (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) ui.state.drags_wipe = true;
+  if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) ui.state.drags_wipe = false;
+  if (ui.state.drags_wipe) {
+    compare.edge = std::fmin(1.0, std::fmax(0.0, map.uv_of_screen(mouse).x));
+    ui.studio.set_compare(compare);
+  }
+  const bool used = near || ui.state.drags_wipe;
+  if (used) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, used ? colours::kText : colours::kAccent, scaled(1.5F));
+  ui.registry.record("viewport/wipe", {x - reach, top}, {x + reach, bottom}, fmt::format("{:.4f}", compare.edge));
+  return used;
+}
+
 void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
   const GhostFigures* ghost = selected_figures(ui.studio);
   if (ghost == nullptr || !ui.studio.view.shows_ghosts) return;
@@ -43,13 +86,11 @@ void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
   const ImVec2 at = map.screen_of_pixel(ghost->centroid_px);
   const float rx = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.x));
   const float ry = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.y));
-  std::array<ImVec2, kOutlinePoints> points;
-  for (int k = 0; k < kOutlinePoints; ++k) {
-    const float t = 6.2831853F * static_cast<float>(k) / kOutlinePoints;
-    points[static_cast<std::size_t>(k)] = {at.x + rx * std::cos(t), at.y + ry * std::sin(t)};
-  }
-  for (std::size_t k = 0; k + 1 < points.size(); k += 2)
-    list.AddLine(points[k], points[k + 1], colours::kSelected, scaled(1.5F));
+  const GhostFootprint* footprint = footprint_called(ui.studio, ghost->ghost);
+  if (footprint != nullptr)
+    draw_border(list, map, *footprint);
+  else
+    draw_ellipse(list, at, rx, ry);
   const std::string name = fmt::format("{}  {:.3g} %", name_for_people(ghost->ghost), 100 * ghost->relative_flux);
   const ImVec2 size = ImGui::CalcTextSize(name.c_str());
   const ImVec2 text = {std::fmin(at.x + scaled(8), map.canvas_max.x - size.x - scaled(8)),

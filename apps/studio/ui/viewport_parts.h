@@ -12,6 +12,9 @@ void draw_light_handles(Ui& ui, const ViewportMap& map);
 // Drags, adds and selects lights with the mouse; true if a handle has the mouse.
 bool use_light_handles(Ui& ui, const ViewportMap& map, bool is_hovered);
 
+// The edge of a wipe: drags it with the mouse; true if it has the mouse.
+bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered);
+
 void draw_frame_guides(const ViewportMap& map);
 void draw_selected_ghost(Ui& ui, const ViewportMap& map);
 // Whether the picture is a draft; unless it is to be short, its size and how long it took.

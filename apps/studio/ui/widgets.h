@@ -9,6 +9,8 @@
 
 #include <imgui.h>
 
+#include "studio/core/keys.h"
+#include "studio/core/section_edits.h"
 #include "studio/core/studio.h"
 
 namespace contrejour::studio {
@@ -34,8 +36,8 @@ class WidgetRegistry {
   std::vector<WidgetRecord> widgets_;
 };
 
-enum class SideTab { Ghosts, Lights, Parameters, History };
-enum class BottomTab { Section, Prescription, Coatings };
+enum class SideTab { Ghosts, Lights, Looks, Parameters, History };
+enum class BottomTab { Section, Prescription, Coatings, Iris, Timeline, Compare, Measured };
 enum class Dialog { None, OpenLens, OpenPlate, SaveAs, Export, Recover, Quit };
 
 // A cell or a field that is typed into, until it is accepted.
@@ -52,6 +54,29 @@ struct LightDrag {
   ImVec2 grip;  // from the mouse to the light
 };
 
+// A surface that is dragged in the section, as it was before.
+struct SurfaceDrag {
+  bool on = false, has_moved = false;
+  int surface = 0;  // 1-based
+  SurfaceGrip grip = SurfaceGrip::Vertex;
+  float from_x = 0;  // of the mouse
+  float scale = 1;  // of the screen per mm
+  std::shared_ptr<const Prescription> lens;
+};
+
+// A key that is dragged along the timeline.
+struct KeyDrag {
+  bool on = false;
+  TrackId track;
+  int frame = 0;
+};
+
+// A number that is dragged: it goes on through values that are refused, such as an iris of one blade.
+struct NumberDrag {
+  std::string id;  // empty: none
+  float value = 0;
+};
+
 // The state of the interface that is neither document nor view.
 struct InterfaceState {
   SideTab side = SideTab::Ghosts;
@@ -66,6 +91,14 @@ struct InterfaceState {
   int coating_in_sight = 0, row_in_sight = 0;  // the surfaces that lists were scrolled to last
   TextEdit edit;
   LightDrag drag;
+  ExportKind export_kind = ExportKind::Picture;
+  int export_layers = 2;  // as LayersBy
+  int measured_curve = 0;  // as GhostCurve
+  std::string look_name;  // typed for a look to be saved
+  KeyDrag key_drag;
+  NumberDrag number_drag;
+  SurfaceDrag surface_drag;
+  bool drags_wipe = false;
   bool viewport_has_keys = true;  // arrows and Tab are the viewport's
   ImVec2 probe{-1, -1};  // the picture's pixel under the mouse; negative: none
   bool wants_to_quit = false;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a document can be exported as. Errors: InvalidArgument and Unsupported for a name that does not fit; those of
+// rendering and of writing. Thread-safety: pure functions, but for the files.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contrejour/context.h"
+#include "contrejour/expert/flare_layers.h"
+#include "contrejour/ghost_figures.h"
+#include "contrejour/lens.h"
+#include "studio/core/document.h"
+#include "studio/core/plate_job.h"
+
+namespace contrejour::studio {
+
+enum class ExportKind { Picture, Layers, Frames, Lens, Look, Report };
+inline constexpr std::array<ExportKind, 6> kExportKinds = {ExportKind::Picture, ExportKind::Layers, ExportKind::Frames,
+                                                           ExportKind::Lens,    ExportKind::Look,   ExportKind::Report};
+[[nodiscard]] const char* name_of(ExportKind kind);
+[[nodiscard]] const char* help_of(ExportKind kind);
+[[nodiscard]] std::string usual_file(ExportKind kind);  // "flare.exr"
+
+struct ExportOrder {
+  ExportKind kind = ExportKind::Picture;
+  std::string file;
+  Document document;
+  std::shared_ptr<const LensState> lens;
+  std::shared_ptr<const Plate> plate;
+  LayersBy layers_by = LayersBy::Part;
+  std::vector<GhostFigures> figures = {};  // for the report
+};
+
+// At full quality. Frames are exported by frame_export.h.
+[[nodiscard]] Result<void> export_file(const ExportOrder& order, const Context& context = {});
+
+// One HTML page without other files: the picture, the section, the ghosts, the prescription, the settings.
+[[nodiscard]] Result<std::string> report_html(const ExportOrder& order, const Context& context);
+
+}  // namespace contrejour::studio

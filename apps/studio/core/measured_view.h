@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measured flare (.flare.toml) as its panel shows it: a kymograph, which is the row of pixels through the optical
+// centre for each angle of the light; the picture at one angle; its ghosts' parameters over the angle. Read and
+// rendered in the background. Thread-safety: as LatestJob; the rest is pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contrejour/expert/measured_flare.h"
+#include "studio/core/latest_job.h"
+
+namespace contrejour::studio {
+
+inline constexpr int kKymographWidth = 240, kKymographHeight = 121;
+inline constexpr int kMeasuredWidth = 240, kMeasuredHeight = 160;
+
+enum class GhostCurve { Speed, HalfWidth, HalfHeight, Level };
+inline constexpr std::array<GhostCurve, 4> kGhostCurves = {GhostCurve::Speed, GhostCurve::HalfWidth,
+                                                           GhostCurve::HalfHeight, GhostCurve::Level};
+[[nodiscard]] const char* name_of(GhostCurve curve);
+
+struct MeasuredCurve {
+  std::string ghost;
+  std::vector<Vec2> points;  // angle of the light in degrees, value
+};
+// Of each ghost over the angles at which it is there: its speed (the centre over the light's place), its size as a
+// tangent, its level inside in the green channel.
+[[nodiscard]] std::vector<MeasuredCurve> curves_of(const MeasuredFlare& flare, GhostCurve curve);
+
+[[nodiscard]] double largest_angle_deg(const MeasuredFlare& flare);
+
+struct MeasuredOrder {
+  std::string file;
+  double angle_deg = 0;
+};
+
+struct MeasuredAnswer {
+  std::string file;
+  std::shared_ptr<const MeasuredFlare> flare;  // null where there is an error
+  double angle_deg = 0;
+  double half_width = 0;  // of both pictures, as a tangent
+  std::shared_ptr<const std::vector<std::uint32_t>> kymograph;  // rows from the largest negative angle on
+  std::vector<std::uint32_t> picture;
+  std::string error;
+};
+
+using MeasuredJob = LatestJob<MeasuredOrder, MeasuredAnswer>;
+[[nodiscard]] MeasuredJob::Work measured_work();
+
+}  // namespace contrejour::studio

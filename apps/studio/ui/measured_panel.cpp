@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measured flare: its kymograph, in which the angle is chosen; the picture there; the ghosts' parameters over the
+// angle.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "studio/ui/panels.h"
+#include "studio/ui/theme.h"
+
+namespace contrejour::studio {
+namespace {
+
+constexpr std::array<ImU32, 6> kCurveColours = {IM_COL32(240, 173, 78, 255),  IM_COL32(102, 178, 255, 255),
+                                                IM_COL32(122, 199, 140, 255), IM_COL32(222, 132, 200, 255),
+                                                IM_COL32(226, 226, 130, 255), IM_COL32(170, 150, 240, 255)};
+
+void draw_kymograph(Ui& ui, TextureSet& textures, ImVec2 size) {
+  const MeasuredAnswer& measured = ui.studio.measured();
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end = {at.x + size.x, at.y + size.y};
+  ImGui::InvisibleButton("##kymograph", size);
+  ui.registry.record("measured/kymograph", fmt::format("{:.3f}", measured.angle_deg));
+  tip("A row for each angle of the light, from left of the axis to right of it: ghosts are slanted lines. Drag to "
+      "choose "
+      "the angle.");
+  const double most = largest_angle_deg(*measured.flare);
+  if (ImGui::IsItemActive()) {
+    const double part = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.y - at.y) / size.y), 0.0, 1.0);
+    ui.studio.choose_measured_angle(most * (2 * part - 1));
+  }
+  const auto stamp = reinterpret_cast<std::uintptr_t>(measured.kymograph.get());
+  const Texture& texture = textures.get("kymograph", stamp, kKymographWidth, kKymographHeight, *measured.kymograph);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddImage(texture.id(), at, end);
+  list.AddRect(at, end, colours::kLine);
+  const float y = at.y + size.y * static_cast<float>(0.5 * (measured.angle_deg / std::max(most, 1e-9) + 1));
+  list.AddLine({at.x, y}, {end.x, y}, colours::kSelected, scaled(1.5F));
+}
+
+void draw_measured_picture(Ui& ui, TextureSet& textures, ImVec2 size) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), end = {at.x + size.x, at.y + size.y};
+  ImGui::Dummy(size);
+  ui.registry.record("measured/picture");
+  const Texture& texture = textures.get("measured", ui.studio.measured_count(), kMeasuredWidth, kMeasuredHeight,
+                                        ui.studio.measured().picture);
+  ImGui::GetWindowDrawList()->AddImage(texture.id(), at, end);
+  ImGui::GetWindowDrawList()->AddRect(at, end, colours::kLine);
+}
+
+struct CurveRange {
+  double least = 0, most = 0, angle = 1e-9;
+};
+
+CurveRange range_of(const std::vector<MeasuredCurve>& curves) {
+  CurveRange range;
+  for (const MeasuredCurve& curve : curves)
+    for (const Vec2 p : curve.points) {
+      range.least = std::min(range.least, p.y);
+      range.most = std::max(range.most, p.y);
+      range.angle = std::max(range.angle, p.x);
+    }
+  if (!(range.most > range.least)) range.most = range.least + 1;
+  return range;
+}
+
+void draw_small_text(ImDrawList& list, ImVec2 at, const std::string& text, bool to_the_left) {
+  const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
+  list.AddText(small_font(), small_font()->FontSize, {to_the_left ? at.x - size.x : at.x, at.y}, colours::kDim,
+               text.c_str());
+}
+
+void draw_ghost_curves(Ui& ui, ImVec2 size) {
+  const MeasuredAnswer& measured = ui.studio.measured();
+  const auto curves = curves_of(*measured.flare, kGhostCurves[static_cast<std::size_t>(ui.state.measured_curve)]);
+  const CurveRange range = range_of(curves);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy(size);
+  ui.registry.record("measured/curves", fmt::format("{}", curves.size()));
+  const ImVec2 min = {at.x + scaled(48), at.y + scaled(6)},
+               max = {at.x + size.x - scaled(6), at.y + size.y - scaled(20)};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto screen = [&](Vec2 p) {
+    return ImVec2{min.x + (max.x - min.x) * static_cast<float>(p.x / range.angle),
+                  max.y - (max.y - min.y) * static_cast<float>((p.y - range.least) / (range.most - range.least))};
+  };
+  list.AddRect(min, max, colours::kLine);
+  draw_small_text(list, {min.x - scaled(5), min.y - scaled(2)}, fmt::format("{:.3g}", range.most), true);
+  draw_small_text(list, {min.x - scaled(5), max.y - scaled(12)}, fmt::format("{:.3g}", range.least), true);
+  draw_small_text(list, {min.x, max.y + scaled(3)}, "0\u00b0", false);
+  draw_small_text(list, {max.x, max.y + scaled(3)}, fmt::format("{:.3g}\u00b0", range.angle), true);
+  const float now = screen({std::min(range.angle, std::fabs(measured.angle_deg)), 0}).x;
+  list.AddLine({now, min.y}, {now, max.y}, colours::kSelected, 1);
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    std::vector<ImVec2> points;
+    for (const Vec2 p : curves[k].points) points.push_back(screen(p));
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), kCurveColours[k % kCurveColours.size()], 0,
+                     scaled(1.6F));
+  }
+}
+
+void draw_choice_of_curve(Ui& ui) {
+  std::array<const char*, kGhostCurves.size()> names{};
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = name_of(kGhostCurves[k]);
+  ImGui::SetNextItemWidth(scaled(120));
+  ImGui::Combo("##curve", &ui.state.measured_curve, names.data(), static_cast<int>(names.size()));
+  ui.registry.record("measured/curve", names[static_cast<std::size_t>(ui.state.measured_curve)]);
+  tip("The parameter of the ghosts, each in a colour of its own, over the angle of the light");
+}
+
+}  // namespace
+
+void draw_measured_panel(Ui& ui, TextureSet& textures) {
+  const MeasuredAnswer& measured = ui.studio.measured();
+  if (!measured.flare) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s",
+                        measured.error.empty()
+                            ? "Open a measured flare (NAME.flare.toml, from `contrejour measure fit`) or drop it here."
+                            : measured.error.c_str());
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  ImGui::AlignTextToFramePadding();
+  const std::string title = fmt::format("{}: {} ghosts, light at {:+.2f}\u00b0",
+                                        measured.flare->name.empty() ? measured.file : measured.flare->name,
+                                        measured.flare->ghosts.size(), measured.angle_deg);
+  fitting_text(title, ImGui::GetContentRegionAvail().x - scaled(136), colours::kText);
+  ui.registry.record("measured/title", title);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(122));
+  draw_choice_of_curve(ui);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = std::max(scaled(60), (room.x - 2 * gap) / 3);
+  const float height = std::max(scaled(40), std::min(room.y - scaled(2), width * kMeasuredHeight / kMeasuredWidth));
+  draw_kymograph(ui, textures, {width, height});
+  ImGui::SameLine();
+  draw_measured_picture(ui, textures, {height * kMeasuredWidth / kMeasuredHeight, height});
+  ImGui::SameLine();
+  draw_ghost_curves(ui, {std::max(scaled(60), ImGui::GetContentRegionAvail().x), room.y - scaled(2)});
+}
+
+}  // namespace contrejour::studio
