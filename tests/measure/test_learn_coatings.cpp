@@ -8,6 +8,7 @@
 
 #include "lens_capture.h"
 #include "measure/prescription/channel_coating.h"
+#include "measure/prescription/lens_numbers.h"
 
 using namespace contrejour;
 using namespace contrejour::testing;
@@ -30,7 +31,11 @@ TEST_CASE("explore coatings") {
   const LensCapture capture = capture_lens(lens, width, stations);
   CoatingFitOptions options;
   options.max_width = 320;
-  const auto learnt = learn_coatings(capture.photographs(believed), options);
+  if (std::getenv("ROUNDS")) options.max_rounds = std::atoi(std::getenv("ROUNDS"));
+  const auto learnt = learn_coatings(capture.photographs(std::getenv("SAME") ? truth : believed), options);
+  std::printf("centre %.3f %.3f true %.3f %.3f\n", capture.geometry.centre_px.x, capture.geometry.centre_px.y, 0.25*width+2.5, 0.25*capture.settings.height-1.5);
+  for (const auto& d : capture.direct) std::printf("%.4f ", d->rate[1] * 4 / capture.settings.light_rate);
+  std::printf("\n");
   REQUIRE_MESSAGE(learnt.has_value(), learnt.error().to_string());
   const auto bands = spectral_bands(16, IlluminantD65{}, ColourSpace::Rec709);
   const LensState before = *configure_lens(believed);
@@ -48,4 +53,36 @@ TEST_CASE("explore coatings") {
   for (const auto& w : learnt->warnings) std::printf("W %s\n", w.c_str());
   for (const auto& [a, b] : learnt->alike) std::printf("alike %s %s\n", ghost_name(a).c_str(), ghost_name(b).c_str());
   std::printf("rounds %d rank %d %d %d of %d\n", learnt->rounds, learnt->rank[0], learnt->rank[1], learnt->rank[2], learnt->unknowns);
+}
+
+TEST_CASE("explore adjust") {
+  const char* name = std::getenv("LENS") ? std::getenv("LENS") : "tessar";
+  const int width = std::getenv("WIDTH") ? std::atoi(std::getenv("WIDTH")) : 320;
+  const int stations = std::getenv("STATIONS") ? std::atoi(std::getenv("STATIONS")) : 7;
+  const Prescription believed = *find_lens(name);
+  LensTolerances tolerances;
+  AdjustableLens planted = *adjustable_lens(believed, {}, tolerances);
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(planted.numbers.size()));
+  const auto plant = [&](LearntKind kind, int first, double value) {
+    for (std::size_t k = 0; k < planted.numbers.size(); ++k)
+      if (planted.numbers[k].kind == kind && (first == 0 || planted.numbers[k].first == first)) { values[static_cast<Eigen::Index>(k)] = value; break; }
+  };
+  plant(LearntKind::TiltY, 3, 0.001745);
+  if (!std::getenv("TILTONLY")) { plant(LearntKind::Gap, 0, 0.1); plant(LearntKind::Focus, 0, 0.2); }
+  Prescription truth = planted.prescription(values);
+  for (Surface& s : truth.surfaces)
+    if (s.kind == SurfaceKind::Refracting) s.coating = {"", QuarterWave{1.38, 480}};
+  const LensCapture capture = capture_lens(*configure_lens(truth), width, stations);
+  AdjustOptions options;
+  options.max_width = 320;
+  if (std::getenv("GHOSTS")) options.max_ghosts = std::atoi(std::getenv("GHOSTS"));
+  const auto learnt = adjust_lens(capture.photographs(believed), options);
+  REQUIRE_MESSAGE(learnt.has_value(), learnt.error().to_string());
+  for (std::size_t k = 0; k < learnt->numbers.size(); ++k) {
+    const LearntNumber& n = learnt->numbers[k];
+    const double scale = n.kind <= LearntKind::TiltY ? 57.29578 : 1.0;
+    std::printf("%-40s %+.4f +- %.4f  true %+.4f  tolerance %.3f %s\n", learnt_name(n).c_str(), scale * n.value, scale * n.error, scale * values[static_cast<Eigen::Index>(k)], scale * n.tolerance, n.determined ? "" : "OPEN");
+  }
+  std::printf("rms %.3f -> %.3f px, %d drawings, centre %.2f %.2f true %.2f %.2f\n", learnt->rms_before_px, learnt->rms_after_px, learnt->drawings, learnt->centre_px.x, learnt->centre_px.y, 0.25*width+2.5, 0.25*capture.settings.height-1.5);
+  for (const auto& w : learnt->warnings) std::printf("W %s\n", w.c_str());
 }

@@ -11,11 +11,13 @@
 
 namespace contrejour::inline internal {
 
-// For each station and channel: the equations of the ghosts' ratios, with halo and all other ghosts at their best.
+// For each station and channel: the equations of the ghosts' ratios and of the halo, which is the same at all stations
+// but for small deviations. The deviations, and all other ghosts together, are at their best.
 struct SweepEnergies {
   std::vector<StationMatrix> by_station;
+  Eigen::Index ghosts = 0;
 
-  // Of one channel, without one station (-1: of all).
+  // Of the ghosts in one channel, without one station (-1: of all).
   [[nodiscard]] EnergyEquations sum(std::size_t channel, std::ptrdiff_t without = -1) const;
   [[nodiscard]] double pixels(std::size_t channel) const;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "contrejour/expert/learn_lens.h"
@@ -18,6 +18,7 @@ namespace {
 constexpr int kBands = 16;             // of the spectrum, for means over channels
 constexpr double kSettled = 0.01;      // of a logarithm, between two rounds
 constexpr double kAlike = 0.95;        // correlation of two energies
+constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing and the light's flux leave uncertain
 constexpr double kLeastReflectance = 1e-5;
 constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
 
@@ -41,10 +42,6 @@ using RoundFit = std::array<ChannelFit, 3>;
 
 bool is_coatable(const SurfaceState& surface) {
   return surface.kind == SurfaceKind::Refracting && is_air(surface.before) != is_air(surface.after);
-}
-
-Result<LensState> configured(const CoatingTask& task, const Prescription& lens) {
-  return configure_lens(lens, task.photographs.settings);
 }
 
 Result<CoatingTask> prepare(const LensPhotographs& photographs, const CoatingFitOptions& options,
@@ -80,10 +77,38 @@ EnergyEquations scaled(EnergyEquations energies, const Eigen::VectorXd& ratio, d
   return energies;
 }
 
+// The covariance's diagonal of the ratios' errors that a sum over pixels does not know: of what is alike in all pixels
+// of a station, by leaving out each station once (Quenouille 1956, Tukey 1958).
+Eigen::VectorXd scatter_of(const SweepEnergies& energies, std::size_t channel) {
+  const std::size_t count = energies.by_station.size();
+  std::vector<Eigen::VectorXd> all;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(energies.ghosts);
+  for (std::size_t k = 0; k < count; ++k) {
+    const EnergyEquations of = energies.sum(channel, static_cast<std::ptrdiff_t>(k));
+    all.push_back(nonnegative_least_squares(of.a, of.b).x);
+    mean += all.back() / static_cast<double>(count);
+  }
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(energies.ghosts);
+  for (const Eigen::VectorXd& ratio : all)
+    variance += (ratio - mean).cwiseAbs2() * (static_cast<double>(count) - 1.0) / static_cast<double>(count);
+  return variance;
+}
+
+// The same equations with more variance in the ratios: A becomes (A^-1 + V)^-1, which exists for a singular A, too.
+EnergyEquations widened(const EnergyEquations& of, const Eigen::VectorXd& variance) {
+  const Eigen::Index count = of.b.size();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(Eigen::MatrixXd::Identity(count, count) +
+                                                     of.a * variance.asDiagonal());
+  EnergyEquations wide{factors.solve(of.a), factors.solve(of.b), of.yy};
+  wide.a = (0.5 * (wide.a + wide.a.transpose())).eval();
+  return wide;
+}
+
 ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel,
-                       std::ptrdiff_t without = -1) {
+                       const Eigen::VectorXd& scatter, std::ptrdiff_t without = -1) {
   EnergyEquations of = energies.sum(channel, without);
-  of = scaled(of, nonnegative_least_squares(of.a, of.b).x, energies.pixels(channel));
+  const Eigen::VectorXd ratio = nonnegative_least_squares(of.a, of.b).x;
+  of = widened(scaled(of, ratio, energies.pixels(channel)), scatter + kLeastError * kLeastError * ratio.cwiseAbs2());
   ChannelFit fit{nonnegative_least_squares(of.a, of.b), {}};
   fit.fit = fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error,
                            static_cast<int>(task.surfaces.size()), {});
@@ -91,14 +116,14 @@ ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, s
   return fit;
 }
 
-// Standard errors by leaving out each station once (Quenouille 1956, Tukey 1958): errors of drawn ghosts are alike in
-// all pixels of a station, which a sum over pixels does not know.
+// Standard errors of the reflectances' logarithms by leaving out each station once.
 Eigen::VectorXd jackknife_errors(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel) {
   const std::size_t count = energies.by_station.size();
+  const Eigen::VectorXd scatter = scatter_of(energies, channel);
   std::vector<Eigen::VectorXd> all;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task.surfaces.size()));
   for (std::size_t k = 0; k < count; ++k) {
-    all.push_back(fit_channel(task, energies, channel, static_cast<std::ptrdiff_t>(k)).fit.x);
+    all.push_back(fit_channel(task, energies, channel, scatter, static_cast<std::ptrdiff_t>(k)).fit.x);
     mean += all.back() / static_cast<double>(count);
   }
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(mean.size());
@@ -188,7 +213,7 @@ Result<std::pair<SweepEnergies, RoundFit>> one_round(const CoatingTask& task, co
   auto energies = sweep_energies({&task.stations, lens, task.ghosts, task.options.model_error}, context);
   if (!energies) return tl::unexpected(energies.error());
   RoundFit round;
-  for (std::size_t c = 0; c < 3; ++c) round[c] = fit_channel(task, *energies, c);
+  for (std::size_t c = 0; c < 3; ++c) round[c] = fit_channel(task, *energies, c, scatter_of(*energies, c));
   return std::pair{std::move(*energies), std::move(round)};
 }
 
@@ -204,8 +229,9 @@ Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const 
   learnt.lens = photographs.lens;
   std::array<Eigen::VectorXd, 3> total;
   total.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task->surfaces.size())));
+  LensSettings settings = photographs.settings;
   while (true) {
-    const auto lens = configured(*task, learnt.lens);
+    const auto lens = configure_lens(learnt.lens, settings);
     if (!lens) return tl::unexpected(lens.error());
     const auto round = one_round(*task, *lens, context);
     if (!round) return tl::unexpected(round.error());
@@ -214,6 +240,8 @@ Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const 
     for (std::size_t k = 0; k < reflectances.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) reflectances[k][c] *= std::exp(fits[c].fit.x[static_cast<Eigen::Index>(k)]);
     set_coatings(*task, *lens, reflectances, learnt.lens);
+    settings.coating.reset();  // from now on those that were learnt count
+    settings.coating_at.clear();
     ++learnt.rounds;
     if (learnt.rounds == options.max_rounds || largest_change(fits) < kSettled) {
       std::array<Eigen::VectorXd, 3> jackknife;

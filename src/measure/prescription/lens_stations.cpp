@@ -14,7 +14,7 @@ namespace contrejour::inline internal {
 namespace {
 
 // Relative to the brightest pixel of all ghosts; dim ghosts are measured as well.
-constexpr double kDrawingError = 5e-4;
+constexpr double kDrawingError = 0.001;
 constexpr double kMaskedRadii = 2.5;  // of the light's image, beyond which its blurred edge is dim
 constexpr double kMaskedEdge_px = 2.0;
 

@@ -85,7 +85,7 @@ Result<DrawnStation> draw_station(const DrawnSweep& drawn, Vec2 centre_px, std::
   auto patches = ghost_patches(drawn.lens, light_of(stations, k, drawn.lens, frame), frame, drawn.ghosts, context);
   if (!patches) return tl::unexpected(patches.error());
   const FitStation& station = stations.pictures.stations[k];
-  const HaloColumns halo(stations.pictures.lights_px[k], masked_px(stations), frame.width, frame.height);
+  const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width, frame.height);
   if (weights.pixels.empty()) {
     WeightSettings settings;
     settings.model_error = drawn.model_error;
@@ -101,27 +101,16 @@ Result<DrawnStation> draw_station(const DrawnSweep& drawn, Vec2 centre_px, std::
   return all;
 }
 
-using Indices = std::vector<Eigen::Index>;
-
-// A range of columns, appended.
-void append(Indices& to, Eigen::Index first, Eigen::Index count) {
-  for (Eigen::Index k = 0; k < count; ++k) to.push_back(first + k);
-}
-
-ChannelMatrix reordered(const ChannelMatrix& of, const Indices& at) {
-  return {of.a(at, at), of.b(at), of.yy, of.pixels};
-}
-
 // Ghosts' levels over all stations, not below 0.
 NonnegativeSolution common_levels(const std::vector<DrawnStation>& stations, std::size_t channel, Eigen::Index ghosts) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(ghosts, ghosts);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(ghosts);
   for (const DrawnStation& station : stations) {
     const ChannelMatrix& all = station.matrix[channel];
-    Indices at;
-    append(at, 0, ghosts + 1);
-    append(at, ghosts + 1 + kFigures * ghosts, all.b.size() - (ghosts + 1 + kFigures * ghosts));
-    const ChannelMatrix kept = eliminated(reordered(all, at), ghosts);
+    ColumnIndices at;
+    append_columns(at, 0, ghosts + 1);
+    append_columns(at, ghosts + 1 + kFigures * ghosts, all.b.size() - (ghosts + 1 + kFigures * ghosts));
+    const ChannelMatrix kept = eliminated(chosen_columns(all, at), ghosts);
     a += kept.a;
     b += kept.b;
   }
@@ -131,11 +120,11 @@ NonnegativeSolution common_levels(const std::vector<DrawnStation>& stations, std
 // The equations of a station's figures in one channel: levels may differ from the common ones by a little, halo and
 // other ghosts are at their best.
 ChannelMatrix figure_equations(const ChannelMatrix& all, const NonnegativeSolution& levels, Eigen::Index ghosts) {
-  Indices at;
-  append(at, ghosts + 1, kFigures * ghosts);
-  append(at, 0, ghosts + 1);
-  append(at, ghosts + 1 + kFigures * ghosts, all.b.size() - (ghosts + 1 + kFigures * ghosts));
-  ChannelMatrix of = reordered(all, at);
+  ColumnIndices at;
+  append_columns(at, ghosts + 1, kFigures * ghosts);
+  append_columns(at, 0, ghosts + 1);
+  append_columns(at, ghosts + 1 + kFigures * ghosts, all.b.size() - (ghosts + 1 + kFigures * ghosts));
+  ChannelMatrix of = chosen_columns(all, at);
   const Eigen::Index figures = kFigures * ghosts;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(of.b.size());
   Eigen::VectorXd common = Eigen::VectorXd::Zero(of.b.size());

@@ -92,6 +92,7 @@ class ActiveSet {
 }  // namespace
 
 NonnegativeSolution nonnegative_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  if (b.size() == 0) return {};
   // Columns differ by orders of magnitude: in units of their own influence they do not.
   Eigen::VectorXd scale(b.size());
   for (Eigen::Index k = 0; k < b.size(); ++k) scale[k] = a(k, k) > 0.0 ? 1.0 / std::sqrt(a(k, k)) : 0.0;

@@ -23,7 +23,7 @@ struct LinearProblem {
 };
 
 LinearProblem linear_problem(std::span<const GhostSurfaces> ghosts, const Eigen::VectorXd& ratio,
-                             const Eigen::VectorXd& error, int unknowns, double least_error) {
+                             const Eigen::VectorXd& error, int unknowns) {
   std::vector<Eigen::Index> used;
   for (Eigen::Index k = 0; k < ratio.size(); ++k) {
     const auto& of = ghosts[static_cast<std::size_t>(k)].unknown;
@@ -34,7 +34,7 @@ LinearProblem linear_problem(std::span<const GhostSurfaces> ghosts, const Eigen:
                         Eigen::VectorXd(static_cast<Eigen::Index>(used.size()))};
   for (std::size_t m = 0; m < used.size(); ++m) {
     const Eigen::Index k = used[m];
-    const double weight = 1.0 / std::hypot(error[k] / ratio[k], least_error);
+    const double weight = ratio[k] / error[k];
     for (const int unknown : ghosts[static_cast<std::size_t>(k)].unknown)
       if (unknown >= 0) problem.rows(static_cast<Eigen::Index>(m), unknown) += weight;
     problem.right[static_cast<Eigen::Index>(m)] = weight * std::log(ratio[k]);
@@ -64,7 +64,7 @@ Eigen::VectorXd robust_solution(const LinearProblem& problem, double prior) {
 
 ReflectanceFit fit_logarithms(std::span<const GhostSurfaces> ghosts, const Eigen::VectorXd& ratio,
                               const Eigen::VectorXd& error, int unknowns, const ReflectanceOptions& options) {
-  const LinearProblem problem = linear_problem(ghosts, ratio, error, unknowns, options.least_error);
+  const LinearProblem problem = linear_problem(ghosts, ratio, error, unknowns);
   ReflectanceFit fit;
   fit.error = Eigen::VectorXd::Constant(unknowns, options.prior);
   if (problem.rows.rows() == 0) {

@@ -38,7 +38,6 @@ struct ReflectanceFit {
 struct ReflectanceOptions {
   double prior = 1.5;         // standard error of x before anything is measured: a factor of 4.5
   double most_error = 0.25;   // of x along a direction, above which the ghosts leave it open
-  double least_error = 0.02;  // of an energy's logarithm: what drawing and light leave uncertain
 };
 
 // Measured energies with their standard errors -> the linear problem in logarithms, robust, with its rank by singular

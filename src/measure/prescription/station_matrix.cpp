@@ -52,8 +52,11 @@ class Rows {
       if (root == 0.0) continue;
       const Eigen::Index row = row_of(x, y, top);
       const HaloColumns::Values values = halo_.at(x, y);
-      rows_(row, first + values.first) = root * values.at_first;
-      rows_(row, first + values.first + 1) += root * values.at_next;
+      for (int h = 0; h < 3; ++h) {
+        const Eigen::Index at = first + h * halo_.radial_count() + values.first;
+        rows_(row, at) = root * values.harmonics[static_cast<std::size_t>(h)] * values.at_first;
+        rows_(row, at + 1) = root * values.harmonics[static_cast<std::size_t>(h)] * values.at_next;
+      }
       rows_(row, first + halo_.count() - 1) += root;
       values_[row] = root * static_cast<double>(station_.rate.at(x, y, channel));
       ++to.pixels;
@@ -95,10 +98,7 @@ Levels levels_of(const ChannelMatrix& all, Eigen::Index ghosts) {
   const ChannelMatrix kept = eliminated(all, ghosts);
   Levels levels;
   levels.ghosts = nonnegative_least_squares(kept.a, kept.b).x;
-  const Eigen::Index others = all.b.size() - ghosts;
-  Eigen::MatrixXd a = all.a.bottomRightCorner(others, others);
-  a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff() + 1e-300;
-  levels.halo = a.ldlt().solve(all.b.tail(others) - all.a.bottomLeftCorner(others, ghosts) * levels.ghosts);
+  levels.halo = others_given(all, levels.ghosts);
   return levels;
 }
 
@@ -145,14 +145,13 @@ void reweight(const FitStation& station, const std::vector<Patch>& columns, cons
 
 }  // namespace
 
-HaloColumns::HaloColumns(Vec2 light_px, double masked_px, int width, int height)
-    : light_px_(light_px), masked_px_(masked_px) {
-  double farthest = masked_px;
-  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{static_cast<double>(width), 0.0},
-                            Vec2{0.0, static_cast<double>(height)},
-                            Vec2{static_cast<double>(width), static_cast<double>(height)}})
-    farthest = std::max(farthest, length(corner - light_px));
-  for (double r = masked_px; ; r *= kKnotRatio) {
+HaloColumns::HaloColumns(Vec2 light_px, Vec2 centre_px, double masked_px, int width, int height)
+    : light_px_(light_px), outwards_{1.0, 0.0}, masked_px_(masked_px) {
+  const double off_axis = length(light_px - centre_px);
+  if (off_axis > 0.0) outwards_ = (light_px - centre_px) * (1.0 / off_axis);
+  // Knots do not depend on where the light is, so that all stations have the same columns.
+  const double farthest = std::hypot(width, height);
+  for (double r = masked_px;; r *= kKnotRatio) {
     knots_px_.push_back(r);
     if (r >= farthest) break;
   }
@@ -160,17 +159,28 @@ HaloColumns::HaloColumns(Vec2 light_px, double masked_px, int width, int height)
 }
 
 HaloColumns::Values HaloColumns::at(int x, int y) const {
-  const double r = std::clamp(distance(x, y), knots_px_.front(), knots_px_.back());
+  const Vec2 offset = from_light(x, y);
+  const double distance = length(offset);
+  const double r = std::clamp(distance, knots_px_.front(), knots_px_.back());
   const auto next = std::clamp<std::ptrdiff_t>(std::ranges::upper_bound(knots_px_, r) - knots_px_.begin(), 1,
                                                static_cast<std::ptrdiff_t>(knots_px_.size()) - 1);
   const double low = knots_px_[static_cast<std::size_t>(next - 1)], high = knots_px_[static_cast<std::size_t>(next)];
   const double t = std::log(r / low) / std::log(high / low);
-  return {static_cast<int>(next - 1), (1.0 - t) * std::pow(r / low, -kFall), t * std::pow(r / high, -kFall)};
+  const double cosine = distance > 0.0 ? (offset.x * outwards_.x + offset.y * outwards_.y) / distance : 0.0;
+  return {static_cast<int>(next - 1),
+          (1.0 - t) * std::pow(r / low, -kFall),
+          t * std::pow(r / high, -kFall),
+          {1.0, cosine, 2.0 * cosine * cosine - 1.0}};
 }
 
 double HaloColumns::level(const Eigen::VectorXd& levels, int x, int y) const {
   const Values values = at(x, y);
-  return values.at_first * levels[values.first] + values.at_next * levels[values.first + 1] + levels[count() - 1];
+  double sum = levels[count() - 1];
+  for (int h = 0; h < 3; ++h) {
+    const Eigen::Index at = h * radial_count() + values.first;
+    sum += values.harmonics[static_cast<std::size_t>(h)] * (values.at_first * levels[at] + values.at_next * levels[at + 1]);
+  }
+  return sum;
 }
 
 StationMatrix station_matrix(const FitStation& station, const Image& weights, const std::vector<Patch>& columns,
@@ -199,6 +209,22 @@ Image station_weights(const FitStation& station, const std::vector<Patch>& colum
     reweight(station, columns, halo, levels, settings, weights);
   }
   return weights;
+}
+
+void append_columns(ColumnIndices& to, Eigen::Index first, Eigen::Index count) {
+  for (Eigen::Index k = 0; k < count; ++k) to.push_back(first + k);
+}
+
+ChannelMatrix chosen_columns(const ChannelMatrix& of, const ColumnIndices& at) {
+  return {of.a(at, at), of.b(at), of.yy, of.pixels};
+}
+
+Eigen::VectorXd others_given(const ChannelMatrix& all, const Eigen::VectorXd& kept) {
+  constexpr double kRidge = 1e-12;  // as in eliminated()
+  const Eigen::Index others = all.b.size() - kept.size();
+  Eigen::MatrixXd a = all.a.bottomRightCorner(others, others);
+  for (Eigen::Index k = 0; k < others; ++k) a(k, k) = a(k, k) > 0.0 ? a(k, k) * (1.0 + kRidge) : 1.0;
+  return a.ldlt().solve(all.b.tail(others) - all.a.bottomLeftCorner(others, kept.size()) * kept);
 }
 
 ChannelMatrix eliminated(const ChannelMatrix& all, Eigen::Index kept, const Eigen::VectorXd& prior) {

@@ -22,24 +22,27 @@ struct ChannelMatrix {
 };
 using StationMatrix = std::array<ChannelMatrix, 3>;
 
-// Halo: a falling power of the distance from the light, times a piecewise linear function of its logarithm, and a level
-// that is the same everywhere.
+// Halo: a falling power of the distance from the light, times a piecewise linear function of its logarithm; the same
+// times cos(phi) and cos(2 phi), with phi from the direction that leads away from the optical axis, because vignetting
+// and perspective make it uneven and oblong; and a level that is the same everywhere.
 class HaloColumns {
  public:
-  HaloColumns(Vec2 light_px, double masked_px, int width, int height);
-  [[nodiscard]] int count() const { return static_cast<int>(knots_px_.size()) + 1; }
-  [[nodiscard]] bool is_masked(int x, int y) const { return distance(x, y) < masked_px_; }
-  // Its columns' values at a pixel: at most three of them are not 0.
+  HaloColumns(Vec2 light_px, Vec2 centre_px, double masked_px, int width, int height);
+  [[nodiscard]] int radial_count() const { return static_cast<int>(knots_px_.size()); }
+  [[nodiscard]] int count() const { return 3 * radial_count() + 1; }  // round ones, cos(phi), cos(2 phi), the level
+  [[nodiscard]] bool is_masked(int x, int y) const { return length(from_light(x, y)) < masked_px_; }
+  // At a pixel two neighbouring knots have values; those of a harmonic are multiplied by its factor.
   struct Values {
     int first = 0;
     double at_first = 0, at_next = 0;
+    std::array<double, 3> harmonics{};
   };
   [[nodiscard]] Values at(int x, int y) const;
   [[nodiscard]] double level(const Eigen::VectorXd& levels, int x, int y) const;
 
  private:
-  [[nodiscard]] double distance(int x, int y) const { return length(Vec2{x + 0.5, y + 0.5} - light_px_); }
-  Vec2 light_px_;
+  [[nodiscard]] Vec2 from_light(int x, int y) const { return Vec2{x + 0.5, y + 0.5} - light_px_; }
+  Vec2 light_px_, outwards_;
   double masked_px_;
   std::vector<double> knots_px_;
 };
@@ -58,6 +61,14 @@ struct WeightSettings {
 
 [[nodiscard]] StationMatrix station_matrix(const FitStation& station, const Image& weights,
                                            const std::vector<Patch>& columns, const HaloColumns& halo);
+
+// Columns of a matrix, chosen by ranges.
+using ColumnIndices = std::vector<Eigen::Index>;
+void append_columns(ColumnIndices& to, Eigen::Index first, Eigen::Index count);
+[[nodiscard]] ChannelMatrix chosen_columns(const ChannelMatrix& of, const ColumnIndices& at);
+
+// The best values of the unknowns after the first ones, for given values of those.
+[[nodiscard]] Eigen::VectorXd others_given(const ChannelMatrix& all, const Eigen::VectorXd& kept);
 
 // The equations of the first `kept` unknowns, with the others at their best. prior: inverse variances of the others
 // about 0, by their number, or empty.
