@@ -15,7 +15,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kNarrowest = 64;          // pixels of the coarsest resolution
-constexpr double kLeastCentreError = 0.01;  // of the picture's width: the expected centre's, as in sweep_geometry.h
+constexpr double kLeastCentreError = 0.003;  // of the picture's width: decentred elements move the light's images
 constexpr double kPriorDominates = 0.7;  // of the tolerance: a standard error above this part of it says little
 constexpr double kMostTolerances = 6.0;  // a number's bounds
 constexpr double kSettledCost = 1e-3;
@@ -108,6 +108,7 @@ void set_centre_scale(Adjustment& adjustment, const Level& level, double full_pi
   adjustment.prior[first + 1] = std::max(known.y, kLeastCentreError * width_px);
 }
 
+// Resolutions from coarse to fine.
 std::vector<int> widths_of(int width) {
   std::vector<int> widths{width};
   while (widths.front() / 2 >= kNarrowest) widths.insert(widths.begin(), widths.front() / 2);
@@ -180,7 +181,9 @@ Result<AdjustedLens> adjust_lens(const LensPhotographs& photographs, const Adjus
     adjustment.prior[k] = adjustment.lens.numbers[static_cast<std::size_t>(k)].tolerance;
   AdjustedLens adjusted;
   double pitch_mm = 0.0;
-  const std::vector<int> widths = widths_of(options.max_width);
+  const auto finest = lens_stations(photographs, adjustment.lens.nominal, options.max_width, context);
+  if (!finest) return tl::unexpected(finest.error());
+  const std::vector<int> widths = widths_of(finest->pictures.stations.front().rate.width);
   for (const int width : widths) {
     auto level = prepare_level(adjustment, width, context);
     if (!level) return tl::unexpected(level.error());

@@ -12,22 +12,21 @@
 namespace contrejour::inline internal {
 namespace {
 
-// Near the means of the channels' wavelengths; in the order of wavelengths, which is the reverse of red, green, blue.
-constexpr std::array<double, 3> kNodes_nm{455.0, 545.0, 610.0};
+// A table's wavelengths. Between and beyond them the channels of a light have little weight.
+constexpr std::array<double, 11> kTable_nm{400, 430, 460, 490, 520, 550, 580, 610, 640, 670, 700};
+constexpr double kFilmIndex = 1.45;  // of the films, by which their phase falls with the angle of incidence
+constexpr double kMostPhase = 0.4;   // off that of 550 nm, beyond which the parabola is not continued
 constexpr std::array<double, 11> kAngles_deg{0, 10, 20, 30, 40, 50, 60, 70, 80, 85, 90};
 constexpr double kLeast = 1e-5, kMost = 0.9;  // reflectances of a table
 constexpr double kDigits = 1e7;               // a table's numbers are whole multiples of 1 / kDigits
 
-// Weights of linear interpolation between the nodes, constant beyond them.
-Eigen::Vector3d node_weights(double lambda_nm) {
-  if (lambda_nm <= kNodes_nm.front()) return {1.0, 0.0, 0.0};
-  if (lambda_nm >= kNodes_nm.back()) return {0.0, 0.0, 1.0};
-  const int low = lambda_nm < kNodes_nm[1] ? 0 : 1;
-  const double from = kNodes_nm[static_cast<std::size_t>(low)], to = kNodes_nm[static_cast<std::size_t>(low + 1)];
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero();
-  weights[low + 1] = (lambda_nm - from) / (to - from);
-  weights[low] = 1.0 - weights[low + 1];
-  return weights;
+// Reflectance as a parabola of the phase that light takes up in a film: coatings of few films have one minimum in the
+// visible. At an angle of incidence the phase is smaller, as at a longer wavelength.
+Eigen::Vector3d powers(double lambda_nm, double sine = 0.0) {
+  const double cosine_in_film = std::sqrt(1.0 - sine * sine / (kFilmIndex * kFilmIndex));
+  const double inside_nm = std::clamp(lambda_nm, kTable_nm.front(), kTable_nm.back());
+  const double phase = std::clamp(550.0 * cosine_in_film / inside_nm - 1.0, -kMostPhase, kMostPhase);
+  return {1.0, phase, phase * phase};
 }
 
 double bare_reflectance(const SurfaceState& surface, double cos_in, double lambda_nm) {
@@ -50,21 +49,21 @@ Rgb channel_reflectance(const SurfaceState& surface, std::span<const SpectralBan
 Coating channel_coating(const SurfaceState& surface, const Rgb& reflectance_of, std::span<const SpectralBand> bands) {
   Eigen::Matrix3d means = Eigen::Matrix3d::Zero();
   for (const SpectralBand& band : bands) {
-    const Eigen::Vector3d weights = node_weights(band.lambda_nm);
-    for (std::size_t c = 0; c < 3; ++c) means.row(static_cast<Eigen::Index>(c)) += band.weight[c] * weights.transpose();
+    const Eigen::Vector3d of = powers(band.lambda_nm);
+    for (std::size_t c = 0; c < 3; ++c) means.row(static_cast<Eigen::Index>(c)) += band.weight[c] * of.transpose();
   }
-  const Eigen::Vector3d at_nodes =
+  const Eigen::Vector3d parabola =
       means.partialPivLu().solve(Eigen::Vector3d{reflectance_of[0], reflectance_of[1], reflectance_of[2]});
   MeasuredCoating table;
-  table.lambda_nm.assign(kNodes_nm.begin(), kNodes_nm.end());
+  table.lambda_nm.assign(kTable_nm.begin(), kTable_nm.end());
   table.angle_deg.assign(kAngles_deg.begin(), kAngles_deg.end());
-  for (std::size_t n = 0; n < kNodes_nm.size(); ++n) {
-    const double normal = std::clamp(at_nodes[static_cast<Eigen::Index>(n)], kLeast, kMost);
-    const double bare = bare_reflectance(surface, 1.0, kNodes_nm[n]);
+  for (const double lambda_nm : kTable_nm) {
+    const double bare = bare_reflectance(surface, 1.0, lambda_nm);
     for (const double angle : kAngles_deg) {
+      const double films = std::clamp(parabola.dot(powers(lambda_nm, std::sin(rad_from_deg(angle)))), kLeast, kMost);
       // The bare glass's rise; both reflect everything at grazing incidence.
-      const double rise = bare_reflectance(surface, std::cos(rad_from_deg(angle)), kNodes_nm[n]) - bare;
-      const double value = angle >= 90.0 ? 1.0 : normal + rise * (1.0 - normal) / (1.0 - bare);
+      const double rise = bare_reflectance(surface, std::cos(rad_from_deg(angle)), lambda_nm) - bare;
+      const double value = angle >= 90.0 ? 1.0 : films + rise * (1.0 - films) / (1.0 - bare);
       table.reflectance.push_back(std::round(kDigits * std::clamp(value, 0.0, 1.0)) / kDigits);
     }
   }

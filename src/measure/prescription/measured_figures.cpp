@@ -16,6 +16,7 @@ namespace {
 
 // What figures are uncertain by beside the pixels' errors: residuals of a drawn ghost are alike in neighbouring pixels.
 constexpr double kLeastMiddle_px = 0.03, kLeastMiddleOfSize = 0.002, kLeastSize = 0.004;
+constexpr double kHuber = 3.0;       // standard deviations from which a figure counts linearly
 constexpr double kLevelError = 0.1;  // relative, of a ghost's level from station to station
 constexpr int kMargin_px = 1;        // about a patch, for differences of its pixels
 
@@ -161,7 +162,14 @@ StationFigures station_figures(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
   Eigen::MatrixXd weight = (unit + scaled).partialPivLu().solve(scaled);
   weight = 0.5 * (weight + weight.transpose()).eval();
   const Eigen::VectorXd inverse = least.cwiseInverse();
-  return {least.cwiseProduct(off), inverse.asDiagonal() * weight * inverse.asDiagonal()};
+  StationFigures figures{least.cwiseProduct(off), inverse.asDiagonal() * weight * inverse.asDiagonal()};
+  // Figures far off count less: a caustic, or a ghost taken for another.
+  const Eigen::VectorXd root =
+      (figures.off.cwiseAbs().cwiseProduct(figures.weight.diagonal().cwiseSqrt())).unaryExpr([](double deviations) {
+        return deviations > kHuber ? std::sqrt(kHuber / deviations) : 1.0;
+      });
+  figures.weight = (root.asDiagonal() * figures.weight * root.asDiagonal()).eval();
+  return figures;
 }
 
 }  // namespace
