@@ -20,8 +20,9 @@ void add_known_lens(CLI::App& command, KnownLensOptions& options) {
       ->check(CLI::Range(0.0, 20.0))
       ->option_text("DEG");
   command
-      .add_option("--pixel", options.pixel_um,
-                  "a merged pixel's side in micrometres, two of the sensor's (default: pictures span the lens's sensor)")
+      .add_option(
+          "--pixel", options.pixel_um,
+          "a merged pixel's side in micrometres, two of the sensor's (default: pictures span the lens's sensor)")
       ->check(CLI::Range(0.1, 1000.0))
       ->option_text("UM");
   add_number(command, "--threads", options.threads, 0, 1024, "threads; 0: one for each core");

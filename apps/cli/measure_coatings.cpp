@@ -15,8 +15,10 @@ namespace contrejour::cli {
 namespace {
 
 constexpr const char* kCoatingsExamples =
-    "LENS is the lens that was photographed, FOLDER what `contrejour measure merge` wrote. The energy of a ghost is the\n"
-    "product of two surfaces' reflectances and of what the lens's geometry makes of it. Surfaces that the ghosts do not\n"
+    "LENS is the lens that was photographed, FOLDER what `contrejour measure merge` wrote. The energy of a ghost is "
+    "the\n"
+    "product of two surfaces' reflectances and of what the lens's geometry makes of it. Surfaces that the ghosts do "
+    "not\n"
     "tell apart are named in warnings; they are open in the table.\n\n"
     "Examples:\n"
     "  contrejour measure coatings tessar merged -o learnt.toml\n"
@@ -42,9 +44,9 @@ std::string coatings_text(const LearntCoatings& learnt) {
     cells.push_back(open);
     table.add(std::move(cells));
   }
-  return table.text() + fmt::format("\n{} ghosts; {}, {} and {} of {} reflectances are determined in red, green, blue\n",
-                                    learnt.ghosts.size(), learnt.rank[0], learnt.rank[1], learnt.rank[2],
-                                    learnt.unknowns);
+  return table.text() +
+         fmt::format("\n{} ghosts; {}, {} and {} of {} reflectances are determined in red, green, blue\n",
+                     learnt.ghosts.size(), learnt.rank[0], learnt.rank[1], learnt.rank[2], learnt.unknowns);
 }
 
 Json rgb_json(const Rgb& rgb) { return Json::array({rgb[0], rgb[1], rgb[2]}); }

@@ -11,6 +11,9 @@
 
 namespace contrejour::testing {
 
+// Stopped down, out-of-focus ghosts are small and sharp.
+inline const LensSettings kStopped{.f_number = 11.0};
+
 struct LensCapture {
   SweepSettings settings;
   std::vector<CapturedImage> pictures;
@@ -46,8 +49,7 @@ inline LensCapture capture_lens(const LensState& lens, int width, int stations, 
     all.direct.push_back(at ? std::optional(*at) : std::nullopt);
     if (at) lights.push_back({rad_from_deg(station.angle_deg), at->position_px});
   }
-  all.geometry =
-      fit_geometry(lights, expected_centre(all.pictures[0].rate.width, all.pictures[0].rate.height)).value();
+  all.geometry = fit_geometry(lights, expected_centre(all.pictures[0].rate.width, all.pictures[0].rate.height)).value();
   return all;
 }
 

@@ -16,8 +16,6 @@ using namespace contrejour::testing;
 
 namespace {
 
-const LensSettings kStopped{.f_number = 11.0};
-
 Eigen::Index index_of(const std::vector<LearntNumber>& numbers, LearntKind kind, int first = 0) {
   const auto at = std::ranges::find_if(
       numbers, [&](const LearntNumber& n) { return n.kind == kind && (first == 0 || n.first == first); });
@@ -34,7 +32,8 @@ TEST_CASE("lens numbers: a body is tilted as a file's group is, and gaps move wh
   values[index_of(adjustable.numbers, LearntKind::TiltY, 3)] = rad_from_deg(-0.2);
   values[index_of(adjustable.numbers, LearntKind::DecentreX, 3)] = 0.1;
   std::string toml = write_lens_toml(lens);
-  toml.insert(toml.find("\nsurfaces"), "\ngroups = [{ surfaces = [3, 4], decentre_mm = [0.1, 0], tilt_deg = [0.3, -0.2] }]");
+  toml.insert(toml.find("\nsurfaces"),
+              "\ngroups = [{ surfaces = [3, 4], decentre_mm = [0.1, 0], tilt_deg = [0.3, -0.2] }]");
   const auto grouped = read_lens_toml(toml, "grouped.toml");
   REQUIRE_MESSAGE(grouped.has_value(), grouped.error().to_string());
   const Prescription moved = adjustable.prescription(values);
@@ -59,11 +58,10 @@ TEST_CASE("adjust lens: a tilt of 0.1 degrees, an air space and the focus are fo
   values[index_of(planted.numbers, LearntKind::TiltY, 3)] = rad_from_deg(0.1);
   values[index_of(planted.numbers, LearntKind::Gap)] = 0.1;
   values[index_of(planted.numbers, LearntKind::Focus)] = 0.2;
-  Prescription truth = planted.prescription(values);
-  for (Surface& s : truth.surfaces)
-    if (s.kind == SurfaceKind::Refracting) s.coating = {"", QuarterWave{1.38, 480.0}};
-  truth.surfaces[6].coating = {};  // cemented
-  const LensCapture capture = capture_lens(*configure_lens(truth, kStopped), 320, 5);
+  LensState truth = *planted.state(values);
+  for (SurfaceState& s : truth.surfaces)
+    if (is_air(s.before) != is_air(s.after)) s.coating = {"", QuarterWave{1.38, 480.0}};
+  const LensCapture capture = capture_lens(truth, 320, 5);
   AdjustOptions options;
   options.max_ghosts = 10;
   options.max_iterations = 4;
@@ -78,6 +76,7 @@ TEST_CASE("adjust lens: a tilt of 0.1 degrees, an air space and the focus are fo
   CHECK(std::abs(gap.value - 0.1) < 0.03);
   const auto& focus = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::Focus))];
   CHECK(std::abs(focus.value - 0.2) < 0.2);
+  MESSAGE("off by ", adjusted->rms_before_px, " then ", adjusted->rms_after_px, " px; ", adjusted->drawings);
   CHECK(adjusted->rms_after_px < 0.5 * adjusted->rms_before_px);
   CHECK(configure_lens(adjusted->lens, kStopped).has_value());
 }

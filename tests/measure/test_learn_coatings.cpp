@@ -14,8 +14,6 @@ using namespace contrejour::testing;
 
 namespace {
 
-const LensSettings kStopped{.f_number = 11.0};
-
 // The Tessar, whose file has one coating everywhere, with another one on each surface, or none.
 Prescription coated_tessar() {
   Prescription lens = *find_lens("tessar");
@@ -55,7 +53,8 @@ TEST_CASE("learn coatings: reflectances that the ghosts determine, of coatings t
   CHECK(learnt->surfaces.size() == 6);
   for (const LearntReflectance& of : learnt->surfaces) {
     const auto at = static_cast<std::size_t>(of.surface - 1);
-    const Rgb real = channel_reflectance(truth.surfaces[at], bands), file = channel_reflectance(lens.surfaces[at], bands);
+    const Rgb real = channel_reflectance(truth.surfaces[at], bands),
+              file = channel_reflectance(lens.surfaces[at], bands);
     for (std::size_t c = 0; c < 3; ++c) {
       CAPTURE(of.surface);
       CAPTURE(c);

@@ -37,7 +37,8 @@ TEST_CASE("reflectance fit: graphs of ghosts have the rank of their odd cycles")
   const ReflectanceFit fit = fit_of(odd, x);
   CHECK(fit.rank == 4);
   CHECK(fit.open.empty());
-  for (std::size_t k = 0; k < x.size(); ++k) CHECK(fit.x[static_cast<Eigen::Index>(k)] == doctest::Approx(x[k]).epsilon(0.01));
+  for (std::size_t k = 0; k < x.size(); ++k)
+    CHECK(fit.x[static_cast<Eigen::Index>(k)] == doctest::Approx(x[k]).epsilon(0.01));
   // A known reflectance at one end determines the path.
   const std::vector<GhostSurfaces> anchored{{{0, -1}}, {{0, 1}}, {{1, 2}}, {{2, 3}}};
   CHECK(fit_of(anchored, x).rank == 4);
@@ -78,8 +79,10 @@ TEST_CASE("non-negative least squares: the conditions of Kuhn and Tucker hold") 
     const Eigen::VectorXd x = nonnegative_least_squares(a, b).x, gradient = a * x - b;
     for (Eigen::Index k = 0; k < x.size(); ++k) {
       CHECK(x[k] >= 0.0);
-      if (x[k] > 0.0) CHECK(std::abs(gradient[k]) < 1e-6);
-      else CHECK(gradient[k] > -1e-6);
+      if (x[k] > 0.0)
+        CHECK(std::abs(gradient[k]) < 1e-6);
+      else
+        CHECK(gradient[k] > -1e-6);
     }
   }
 }

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "contrejour/expert/learn_lens.h"
+#include "contrejour/expert/trace.h"
 #include "measure/fit/levenberg_marquardt.h"
 #include "measure/prescription/lens_numbers.h"
 #include "measure/prescription/measured_figures.h"
@@ -15,7 +16,8 @@ namespace contrejour {
 namespace {
 
 constexpr int kNarrowest = 64;          // pixels of the coarsest resolution
-constexpr double kLeastCentreError = 0.003;  // of the picture's width: decentred elements move the light's images
+constexpr double kCentreTolerance = 0.03;  // of the picture's width: how far the lens's axis may be from its middle
+constexpr double kLeastCentreError_px = 0.05;  // of the light's image on the axis, full-size merged pixels
 constexpr double kPriorDominates = 0.7;  // of the tolerance: a standard error above this part of it says little
 constexpr double kMostTolerances = 6.0;  // a number's bounds
 constexpr double kSettledCost = 1e-3;
@@ -26,6 +28,8 @@ struct Level {
   std::vector<Ghost> ghosts;
   std::vector<Image> weights;  // of pixels, kept while the lens changes
   std::vector<Eigen::MatrixXd> derivatives;
+  Vec2 centre_error_px;               // of the point that the sweep's geometry has as its centre
+  Eigen::MatrixXd centre_derivatives;  // of that point, two rows
 };
 
 struct Adjustment {
@@ -56,6 +60,44 @@ Result<MeasuredFigures> measure(Adjustment& adjustment, Level& level, const Eige
                           centre_of(level.stations, unknowns), level.weights, context);
 }
 
+// The image of light perpendicular to the sensor, which the sweep's geometry finds as its centre: tilted elements leave
+// it nearly where the lens's axis meets the sensor, decentred ones move it.
+Result<Eigen::Vector2d> perpendicular_image_px(const Adjustment& adjustment, const Level& level,
+                                               const Eigen::VectorXd& unknowns) {
+  const auto state = lens_of(adjustment.lens, unknowns);
+  if (!state) return tl::unexpected(state.error());
+  const Frame frame = frame_of(level.stations, centre_of(level.stations, unknowns));
+  const Vec2 at = frame.pixel_from_sensor(chief_ray_image_point(*state, {}, state->design_wavelength_nm));
+  return Eigen::Vector2d{at.x, at.y};
+}
+
+Result<void> set_centre_derivatives(const Adjustment& adjustment, Level& level) {
+  const Eigen::VectorXd& at = adjustment.unknowns;
+  level.centre_derivatives.setZero(2, at.size());
+  for (Eigen::Index n = 0; n < at.size(); ++n) {
+    const bool is_number = n < at.size() - 2;
+    const double step = is_number ? difference_step(adjustment.lens.numbers[static_cast<std::size_t>(n)]) : 0.5;
+    Eigen::VectorXd up = at, down = at;
+    up[n] += step;
+    down[n] -= step;
+    const auto above = perpendicular_image_px(adjustment, level, up);
+    const auto below = perpendicular_image_px(adjustment, level, down);
+    if (!above || !below) return tl::unexpected((above ? below : above).error());
+    level.centre_derivatives.col(n) = (*above - *below) / (2.0 * step);
+  }
+  return {};
+}
+
+// Adds what the sweep's geometry says of the centre.
+void add_centre(const Level& level, const Eigen::Vector2d& image_px, NormalEquations& equations) {
+  const Eigen::Vector2d off = image_px - Eigen::Vector2d{level.stations.centre_px.x, level.stations.centre_px.y};
+  const Eigen::Vector2d weight{1.0 / (level.centre_error_px.x * level.centre_error_px.x),
+                               1.0 / (level.centre_error_px.y * level.centre_error_px.y)};
+  equations.cost += 0.5 * off.dot(weight.cwiseProduct(off));
+  equations.gradient += level.centre_derivatives.transpose() * weight.cwiseProduct(off);
+  equations.hessian += level.centre_derivatives.transpose() * weight.asDiagonal() * level.centre_derivatives;
+}
+
 NormalEquations equations_of(const MeasuredFigures& figures, const Level& level, const Eigen::VectorXd& unknowns,
                              const Eigen::VectorXd& prior) {
   const Eigen::VectorXd inverse = prior.cwiseAbs2().cwiseInverse();
@@ -77,11 +119,17 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const
   auto derivatives = figure_derivatives(level.stations, adjustment.lens, adjustment.unknowns, level.ghosts, context);
   if (!derivatives) return tl::unexpected(derivatives.error());
   level.derivatives = std::move(*derivatives);
+  if (auto ok = set_centre_derivatives(adjustment, level); !ok) return tl::unexpected(ok.error());
   LeastSquaresProblem problem;
   problem.equations = [&](const Eigen::VectorXd& unknowns) {
     const auto figures = measure(adjustment, level, unknowns, context);
-    if (figures) return equations_of(*figures, level, unknowns, adjustment.prior);
-    if (figures.error().code == ErrorCode::Cancelled) adjustment.error = figures.error();
+    const auto image_px = perpendicular_image_px(adjustment, level, unknowns);
+    if (figures && image_px) {
+      NormalEquations equations = equations_of(*figures, level, unknowns, adjustment.prior);
+      add_centre(level, *image_px, equations);
+      return equations;
+    }
+    if (!figures && figures.error().code == ErrorCode::Cancelled) adjustment.error = figures.error();
     return NormalEquations{std::numeric_limits<double>::infinity(), Eigen::VectorXd::Zero(unknowns.size()),
                            Eigen::MatrixXd::Identity(unknowns.size(), unknowns.size())};
   };
@@ -97,15 +145,15 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const
 }
 
 // The centre's unknowns in the pixels of a level.
-void set_centre_scale(Adjustment& adjustment, const Level& level, double full_pitch_mm, double& last_pitch_mm) {
-  const Eigen::Index first = adjustment.unknowns.size() - 2;
+void set_centre_scale(Adjustment& adjustment, Level& level, double full_pitch_mm, double& last_pitch_mm) {
   const double pitch_mm = level.stations.pixel_pitch_mm;
   if (last_pitch_mm > 0.0) adjustment.unknowns.tail(2) *= last_pitch_mm / pitch_mm;
   last_pitch_mm = pitch_mm;
-  const double width_px = level.stations.pictures.stations.front().rate.width;
-  const Vec2 known = adjustment.photographs.geometry.centre_error_px * (full_pitch_mm / pitch_mm);
-  adjustment.prior[first] = std::max(known.x, kLeastCentreError * width_px);
-  adjustment.prior[first + 1] = std::max(known.y, kLeastCentreError * width_px);
+  adjustment.prior.tail(2).setConstant(kCentreTolerance * level.stations.pictures.stations.front().rate.width);
+  const Vec2 known = adjustment.photographs.geometry.centre_error_px;
+  const double to_level = full_pitch_mm / pitch_mm;
+  level.centre_error_px = {to_level * std::hypot(known.x, kLeastCentreError_px),
+                           to_level * std::hypot(known.y, kLeastCentreError_px)};
 }
 
 // Resolutions from coarse to fine.
@@ -121,8 +169,7 @@ Eigen::VectorXd errors_of(const LeastSquaresResult& result, const Eigen::VectorX
   const double scale = std::max(2.0 * result.cost / std::max(figures, 1.0), 1.0);
   Eigen::MatrixXd hessian = (result.hessian - Eigen::MatrixXd(inverse.asDiagonal())) / scale;
   hessian += inverse.asDiagonal();
-  const Eigen::MatrixXd covariance =
-      hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  const Eigen::MatrixXd covariance = hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
   return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
@@ -136,8 +183,7 @@ void add_numbers(const Adjustment& adjustment, const Eigen::VectorXd& errors, Ad
     number.determined = number.error < kPriorDominates * number.tolerance;
     if (!number.determined) open += (open.empty() ? "" : "; ") + learnt_name(number);
   }
-  if (!open.empty())
-    adjusted.warnings.push_back("the pictures say little beyond their tolerances about the " + open);
+  if (!open.empty()) adjusted.warnings.push_back("the pictures say little beyond their tolerances about the " + open);
 }
 
 // The stop's radius in the file: wide open, the f-number that gives it.
@@ -145,10 +191,10 @@ void write_stop(const Adjustment& adjustment, AdjustedLens& adjusted) {
   const auto radius = std::ranges::find(adjusted.numbers, LearntKind::StopRadius, &LearntNumber::kind);
   if (radius == adjusted.numbers.end() || !radius->determined) return;
   if (adjustment.photographs.settings.f_number) {
-    adjusted.warnings.push_back(
-        fmt::format("the stop's radius was {:+.2f} per cent off that of the f-number that was set; a lens's file has no "
-                    "place for that",
-                    100.0 * radius->value));
+    adjusted.warnings.push_back(fmt::format(
+        "the stop's radius was {:+.2f} per cent off that of the f-number that was set; a lens's file has no "
+        "place for that",
+        100.0 * radius->value));
     return;
   }
   adjusted.lens.f_number /= 1.0 + radius->value;

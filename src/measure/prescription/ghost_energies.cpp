@@ -25,7 +25,8 @@ Result<StationMatrix> energies_at(const DrawnSweep& drawn, std::size_t k, const 
   const auto patches =
       ghost_patches(drawn.lens, light_of(stations, k, drawn.lens, frame), frame, drawn.ghosts, context);
   if (!patches) return tl::unexpected(patches.error());
-  const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width, frame.height);
+  const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width,
+                         frame.height);
   WeightSettings settings;
   settings.model_error = drawn.model_error;
   const Image weights = station_weights(station, *patches, halo, settings);

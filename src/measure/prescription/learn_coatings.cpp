@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include "contrejour/expert/learn_lens.h"
 #include "measure/prescription/channel_coating.h"
@@ -62,14 +62,15 @@ Result<CoatingTask> prepare(const LensPhotographs& photographs, const CoatingFit
     task.surfaces.push_back(static_cast<int>(k) + 1);
   }
   for (const Ghost& ghost : task.ghosts)
-    task.unknowns_of.push_back({{unknown_of[static_cast<std::size_t>(ghost.i - 1)],
-                                 unknown_of[static_cast<std::size_t>(ghost.j - 1)]}});
+    task.unknowns_of.push_back(
+        {{unknown_of[static_cast<std::size_t>(ghost.i - 1)], unknown_of[static_cast<std::size_t>(ghost.j - 1)]}});
   return task;
 }
 
 // In units of the residuals' own spread, if that is larger than the noise's.
 EnergyEquations scaled(EnergyEquations energies, const Eigen::VectorXd& ratio, double pixels) {
-  const double chi2 = (energies.yy - 2.0 * energies.b.dot(ratio) + ratio.dot(energies.a * ratio)) / std::max(pixels, 1.0);
+  const double chi2 =
+      (energies.yy - 2.0 * energies.b.dot(ratio) + ratio.dot(energies.a * ratio)) / std::max(pixels, 1.0);
   const double scale = 1.0 / std::max(chi2, 1.0);
   energies.a *= scale;
   energies.b *= scale;
@@ -110,8 +111,8 @@ ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, s
   const Eigen::VectorXd ratio = nonnegative_least_squares(of.a, of.b).x;
   of = widened(scaled(of, ratio, energies.pixels(channel)), scatter + kLeastError * kLeastError * ratio.cwiseAbs2());
   ChannelFit fit{nonnegative_least_squares(of.a, of.b), {}};
-  fit.fit = fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error,
-                           static_cast<int>(task.surfaces.size()), {});
+  fit.fit =
+      fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error, static_cast<int>(task.surfaces.size()), {});
   fit.fit.x = refined_logarithms(task.unknowns_of, of, fit.fit.x, {});
   return fit;
 }

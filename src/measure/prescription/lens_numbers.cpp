@@ -69,7 +69,8 @@ void add_body_numbers(const Prescription& lens, const LensTolerances& of, std::v
 void add_gaps(const Prescription& lens, const LensTolerances& of, std::vector<LearntNumber>& numbers) {
   const std::vector<Body> bodies = bodies_of(lens);
   for (std::size_t n = 0; n + 1 < bodies.size(); ++n)
-    numbers.push_back({LearntKind::Gap, number_of(bodies[n].last), number_of(bodies[n + 1].first), 0, 0, of.gap_mm, false});
+    numbers.push_back(
+        {LearntKind::Gap, number_of(bodies[n].last), number_of(bodies[n + 1].first), 0, 0, of.gap_mm, false});
 }
 
 std::size_t stop_of(const Prescription& lens) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stations of a sweep of a known lens: their pictures, and the same pictures drawn through the lens, ghost by ghost.
-// Thread-safety: pure functions.
+// The stations of a sweep of a known lens: their pictures, and the same pictures drawn through the lens, ghost by
+// ghost. Thread-safety: pure functions.
 #pragma once
 
 #include <vector>

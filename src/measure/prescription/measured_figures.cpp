@@ -16,9 +16,9 @@ namespace {
 
 // What figures are uncertain by beside the pixels' errors: residuals of a drawn ghost are alike in neighbouring pixels.
 constexpr double kLeastMiddle_px = 0.03, kLeastMiddleOfSize = 0.002, kLeastSize = 0.004;
-constexpr double kHuber = 3.0;       // standard deviations from which a figure counts linearly
+constexpr double kHuber = 3.0;  // standard deviations from which a figure counts linearly
 constexpr double kLevelError = 0.1;  // relative, of a ghost's level from station to station
-constexpr int kMargin_px = 1;        // about a patch, for differences of its pixels
+constexpr int kMargin_px = 1;  // about a patch, for differences of its pixels
 
 double pixel(const Patch& patch, int x, int y, int c) {
   const int u = x - patch.left, v = y - patch.top;
@@ -45,7 +45,9 @@ Extent extent_of(const Patch& patch) {
   }
   if (!(sum > 0.0)) return {};
   first = first * (1.0 / sum);
-  const auto side = [&](double square, double mean) { return std::sqrt(12.0 * std::max(square / sum - mean * mean, 0.0)); };
+  const auto side = [&](double square, double mean) {
+    return std::sqrt(12.0 * std::max(square / sum - mean * mean, 0.0));
+  };
   return {first, {side(second.x, first.x), side(second.y, first.y)}};
 }
 
@@ -86,7 +88,8 @@ Result<DrawnStation> draw_station(const DrawnSweep& drawn, Vec2 centre_px, std::
   auto patches = ghost_patches(drawn.lens, light_of(stations, k, drawn.lens, frame), frame, drawn.ghosts, context);
   if (!patches) return tl::unexpected(patches.error());
   const FitStation& station = stations.pictures.stations[k];
-  const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width, frame.height);
+  const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width,
+                         frame.height);
   if (weights.pixels.empty()) {
     WeightSettings settings;
     settings.model_error = drawn.model_error;

@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Eigenvalues>
 
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kLinked = 0.08;  // elements of the projection onto open directions from which two unknowns belong together
+constexpr double kLinked =
+    0.08;  // elements of the projection onto open directions from which two unknowns belong together
 
 using Group = std::vector<Eigen::Index>;
 

@@ -68,8 +68,8 @@ class Rows {
     const int left = std::max(patch.left, 0), right = std::min(patch.left + patch.image.width, station_.rate.width);
     for (int y = first; y < last; ++y) {
       for (int x = left; x < right; ++x) {
-        rows_(row_of(x, y, top), k) = root_weight(x, y, channel) *
-                                      static_cast<double>(patch.image.at(x - patch.left, y - patch.top, channel));
+        rows_(row_of(x, y, top), k) =
+            root_weight(x, y, channel) * static_cast<double>(patch.image.at(x - patch.left, y - patch.top, channel));
       }
     }
   }
@@ -133,8 +133,7 @@ void reweight(const FitStation& station, const std::vector<Patch>& columns, cons
           if (level > 0.0) ghosts += level * column_value(columns[k], x, y, c);
         }
         const double off = settings.model_error * ghosts, off_halo = settings.halo_error * scattered;
-        const double variance =
-            1.0 / static_cast<double>(station.weight.at(x, y, c)) + off * off + off_halo * off_halo;
+        const double variance = 1.0 / static_cast<double>(station.weight.at(x, y, c)) + off * off + off_halo * off_halo;
         const double residual =
             std::abs(static_cast<double>(station.rate.at(x, y, c)) - ghosts - scattered) / std::sqrt(variance);
         weight = static_cast<float>((residual > settings.huber ? settings.huber / residual : 1.0) / variance);
@@ -178,7 +177,8 @@ double HaloColumns::level(const Eigen::VectorXd& levels, int x, int y) const {
   double sum = levels[count() - 1];
   for (int h = 0; h < 3; ++h) {
     const Eigen::Index at = h * radial_count() + values.first;
-    sum += values.harmonics[static_cast<std::size_t>(h)] * (values.at_first * levels[at] + values.at_next * levels[at + 1]);
+    sum += values.harmonics[static_cast<std::size_t>(h)] *
+           (values.at_first * levels[at] + values.at_next * levels[at + 1]);
   }
   return sum;
 }

@@ -17,7 +17,7 @@ namespace contrejour::inline internal {
 struct ChannelMatrix {
   Eigen::MatrixXd a;  // J^T W J
   Eigen::VectorXd b;  // J^T W y
-  double yy = 0;      // y^T W y
+  double yy = 0;  // y^T W y
   double pixels = 0;  // with a weight
 };
 using StationMatrix = std::array<ChannelMatrix, 3>;
@@ -50,8 +50,8 @@ class HaloColumns {
 // Weights of a station's pixels.
 struct WeightSettings {
   double model_error = 0.05;  // of what ghosts and halo are expected to have there
-  double huber = 3.0;         // standard deviations from which residuals count linearly
-  double halo_error = 0.1;    // of the halo's level, which is not quite round
+  double huber = 3.0;  // standard deviations from which residuals count linearly
+  double halo_error = 0.1;  // of the halo's level, which is not quite round
 };
 
 // Inverse variances by noise and by what the columns cannot describe, robust about the best non-negative levels of this
