@@ -18,6 +18,8 @@ namespace {
 constexpr int kNarrowest = 64;          // pixels of the coarsest resolution
 constexpr double kCentreTolerance = 0.03;  // of the picture's width: how far the lens's axis may be from its middle
 constexpr double kLeastCentreError_px = 0.05;  // of the light's image on the axis, full-size merged pixels
+constexpr double kLeastSpanError_px = 0.1;     // of half the distance of two images
+constexpr double kSpan = 0.7;                  // of the largest angle: where that distance is compared
 constexpr double kPriorDominates = 0.7;  // of the tolerance: a standard error above this part of it says little
 constexpr double kMostTolerances = 6.0;  // a number's bounds
 constexpr double kSettledCost = 1e-3;
@@ -28,8 +30,10 @@ struct Level {
   std::vector<Ghost> ghosts;
   std::vector<Image> weights;  // of pixels, kept while the lens changes
   std::vector<Eigen::MatrixXd> derivatives;
-  Vec2 centre_error_px;               // of the point that the sweep's geometry has as its centre
-  Eigen::MatrixXd centre_derivatives;  // of that point, two rows
+  // The light's own images (light_images_px): as the sweep's geometry has them, and their derivatives.
+  double span_rad = 0;
+  Eigen::Vector3d light_px = Eigen::Vector3d::Zero(), light_error_px = Eigen::Vector3d::Ones();
+  Eigen::MatrixXd light_derivatives = {};
 };
 
 struct Adjustment {
@@ -60,42 +64,64 @@ Result<MeasuredFigures> measure(Adjustment& adjustment, Level& level, const Eige
                           centre_of(level.stations, unknowns), level.weights, context);
 }
 
-// The image of light perpendicular to the sensor, which the sweep's geometry finds as its centre: tilted elements leave
-// it nearly where the lens's axis meets the sensor, decentred ones move it.
-Result<Eigen::Vector2d> perpendicular_image_px(const Adjustment& adjustment, const Level& level,
-                                               const Eigen::VectorXd& unknowns) {
+// Where the lens has the light's own images, as the sweep's geometry describes them: the image of light perpendicular
+// to the sensor, which is the geometry's centre (tilted elements leave it nearly where the lens's axis meets the
+// sensor, decentred ones move it), and half the distance of two images at either side.
+Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const Level& level,
+                                        const Eigen::VectorXd& unknowns) {
   const auto state = lens_of(adjustment.lens, unknowns);
   if (!state) return tl::unexpected(state.error());
   const Frame frame = frame_of(level.stations, centre_of(level.stations, unknowns));
-  const Vec2 at = frame.pixel_from_sensor(chief_ray_image_point(*state, {}, state->design_wavelength_nm));
-  return Eigen::Vector2d{at.x, at.y};
+  const auto image_px = [&](double angle_rad) {
+    return frame.pixel_from_sensor(
+        chief_ray_image_point(*state, {direction_from_angles(angle_rad, 0.0)}, state->design_wavelength_nm));
+  };
+  const Vec2 middle = image_px(0.0);
+  const double half = 0.5 * length(image_px(level.span_rad) - image_px(-level.span_rad));
+  return Eigen::Vector3d{middle.x, middle.y, half};
 }
 
-Result<void> set_centre_derivatives(const Adjustment& adjustment, Level& level) {
+// What the geometry says of these three, and its standard errors.
+void set_light_images(const Adjustment& adjustment, Level& level) {
+  const SweepGeometry& geometry = adjustment.photographs.geometry;
+  const std::vector<double>& angles = adjustment.photographs.sweep.angles_rad;
+  level.span_rad = 0.0;
+  for (const double angle : angles)
+    level.span_rad = std::max(level.span_rad, kSpan * std::abs(angle - geometry.zero_rad));
+  const double half = 0.5 * length(geometry.position_of(geometry.zero_rad + level.span_rad) -
+                                   geometry.position_of(geometry.zero_rad - level.span_rad));
+  const auto count = static_cast<double>(angles.size());
+  const double scatter = geometry.rms_px * std::sqrt(count / std::max(count - 5.0, 1.0));  // five were fitted
+  const double to_level = level.stations.full_pitch_mm / level.stations.pixel_pitch_mm;
+  level.light_px = {level.stations.centre_px.x, level.stations.centre_px.y, to_level * half};
+  level.light_error_px = to_level * Eigen::Vector3d{std::hypot(geometry.centre_error_px.x, kLeastCentreError_px),
+                                                    std::hypot(geometry.centre_error_px.y, kLeastCentreError_px),
+                                                    std::hypot(scatter / std::sqrt(count), kLeastSpanError_px)};
+}
+
+Result<void> set_light_derivatives(const Adjustment& adjustment, Level& level) {
   const Eigen::VectorXd& at = adjustment.unknowns;
-  level.centre_derivatives.setZero(2, at.size());
+  level.light_derivatives.setZero(3, at.size());
   for (Eigen::Index n = 0; n < at.size(); ++n) {
     const bool is_number = n < at.size() - 2;
     const double step = is_number ? difference_step(adjustment.lens.numbers[static_cast<std::size_t>(n)]) : 0.5;
     Eigen::VectorXd up = at, down = at;
     up[n] += step;
     down[n] -= step;
-    const auto above = perpendicular_image_px(adjustment, level, up);
-    const auto below = perpendicular_image_px(adjustment, level, down);
+    const auto above = light_images_px(adjustment, level, up);
+    const auto below = light_images_px(adjustment, level, down);
     if (!above || !below) return tl::unexpected((above ? below : above).error());
-    level.centre_derivatives.col(n) = (*above - *below) / (2.0 * step);
+    level.light_derivatives.col(n) = (*above - *below) / (2.0 * step);
   }
   return {};
 }
 
-// Adds what the sweep's geometry says of the centre.
-void add_centre(const Level& level, const Eigen::Vector2d& image_px, NormalEquations& equations) {
-  const Eigen::Vector2d off = image_px - Eigen::Vector2d{level.stations.centre_px.x, level.stations.centre_px.y};
-  const Eigen::Vector2d weight{1.0 / (level.centre_error_px.x * level.centre_error_px.x),
-                               1.0 / (level.centre_error_px.y * level.centre_error_px.y)};
+void add_light_images(const Level& level, const Eigen::Vector3d& images_px, NormalEquations& equations) {
+  const Eigen::Vector3d off = images_px - level.light_px;
+  const Eigen::Vector3d weight = level.light_error_px.cwiseAbs2().cwiseInverse();
   equations.cost += 0.5 * off.dot(weight.cwiseProduct(off));
-  equations.gradient += level.centre_derivatives.transpose() * weight.cwiseProduct(off);
-  equations.hessian += level.centre_derivatives.transpose() * weight.asDiagonal() * level.centre_derivatives;
+  equations.gradient += level.light_derivatives.transpose() * weight.cwiseProduct(off);
+  equations.hessian += level.light_derivatives.transpose() * weight.asDiagonal() * level.light_derivatives;
 }
 
 NormalEquations equations_of(const MeasuredFigures& figures, const Level& level, const Eigen::VectorXd& unknowns,
@@ -119,14 +145,15 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const
   auto derivatives = figure_derivatives(level.stations, adjustment.lens, adjustment.unknowns, level.ghosts, context);
   if (!derivatives) return tl::unexpected(derivatives.error());
   level.derivatives = std::move(*derivatives);
-  if (auto ok = set_centre_derivatives(adjustment, level); !ok) return tl::unexpected(ok.error());
+  set_light_images(adjustment, level);
+  if (auto ok = set_light_derivatives(adjustment, level); !ok) return tl::unexpected(ok.error());
   LeastSquaresProblem problem;
   problem.equations = [&](const Eigen::VectorXd& unknowns) {
     const auto figures = measure(adjustment, level, unknowns, context);
-    const auto image_px = perpendicular_image_px(adjustment, level, unknowns);
-    if (figures && image_px) {
+    const auto images_px = light_images_px(adjustment, level, unknowns);
+    if (figures && images_px) {
       NormalEquations equations = equations_of(*figures, level, unknowns, adjustment.prior);
-      add_centre(level, *image_px, equations);
+      add_light_images(level, *images_px, equations);
       return equations;
     }
     if (!figures && figures.error().code == ErrorCode::Cancelled) adjustment.error = figures.error();
@@ -145,15 +172,11 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const
 }
 
 // The centre's unknowns in the pixels of a level.
-void set_centre_scale(Adjustment& adjustment, Level& level, double full_pitch_mm, double& last_pitch_mm) {
+void set_centre_scale(Adjustment& adjustment, const Level& level, double& last_pitch_mm) {
   const double pitch_mm = level.stations.pixel_pitch_mm;
   if (last_pitch_mm > 0.0) adjustment.unknowns.tail(2) *= last_pitch_mm / pitch_mm;
   last_pitch_mm = pitch_mm;
   adjustment.prior.tail(2).setConstant(kCentreTolerance * level.stations.pictures.stations.front().rate.width);
-  const Vec2 known = adjustment.photographs.geometry.centre_error_px;
-  const double to_level = full_pitch_mm / pitch_mm;
-  level.centre_error_px = {to_level * std::hypot(known.x, kLeastCentreError_px),
-                           to_level * std::hypot(known.y, kLeastCentreError_px)};
 }
 
 // Resolutions from coarse to fine.
@@ -234,7 +257,7 @@ Result<AdjustedLens> adjust_lens(const LensPhotographs& photographs, const Adjus
     auto level = prepare_level(adjustment, width, context);
     if (!level) return tl::unexpected(level.error());
     const double full_pitch_mm = level->stations.full_pitch_mm;
-    set_centre_scale(adjustment, *level, full_pitch_mm, pitch_mm);
+    set_centre_scale(adjustment, *level, pitch_mm);
     const auto result = fit_level(adjustment, *level, context);
     if (!result) return tl::unexpected(result.error());
     if (width != widths.back()) continue;
