@@ -117,6 +117,7 @@ PUBLIC = {
     "expert/sweep.h": "measure",
     "expert/fit_flare.h": "measure",
     "expert/fit_comparison.h": "measure",
+    "expert/learn_lens.h": "measure",
     "expert/sweep_geometry.h": "measure",
     "method_options.h": "render/planning",
     "expert/methods.h": "render/planning",
@@ -231,8 +232,8 @@ FENCED = [
     (r"gemmi/|pocketfft", ("src/diffraction",), "one wrapper of the FFT"),
     (r"OpenImageIO/|OpenColorIO/", ("src/plate_modules",), "modules of their own, loaded when they are needed first"),
     (r"Eigen/", ("src/diffraction", "src/optics/coating", "src/render/pupils", "src/measure/fit",
-                "src/polynomial"),
-     "one wrapper of the eigen solver, four of least squares"),
+                "src/measure/prescription", "src/polynomial"),
+     "one wrapper of the eigen solver, five of least squares"),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

@@ -52,6 +52,8 @@ void add_coating_fit(CLI::App& coating, Action& action);
 void add_measure_protocol(CLI::App& measure, Action& action);
 void add_measure_merge(CLI::App& measure, Action& action);
 void add_measure_fit(CLI::App& measure, Action& action);
+void add_measure_coatings(CLI::App& measure, Action& action);
+void add_measure_adjust(CLI::App& measure, Action& action);
 void add_measure_demo(CLI::App& measure, Action& action);
 void add_measure_predict(CLI::App& measure, Action& action);
 

@@ -12,12 +12,16 @@ void add_measure(CLI::App& app, Action& action) {
       "  contrejour measure protocol -o protocol.html --list sweep.csv\n"
       "  contrejour measure merge sweep.csv -o merged\n"
       "  contrejour measure fit merged -o mine.flare.toml --report mine.html\n"
+      "  contrejour measure coatings tessar merged -o learnt.toml\n"
+      "  contrejour measure adjust tessar merged -o adjusted.toml\n"
       "  contrejour measure predict heliar -f 8 -o safe.svg\n"
       "  contrejour measure demo -o demo");
   add_measure_protocol(*measure, action);
   add_measure_merge(*measure, action);
   add_measure_fit(*measure, action);
   add_measure_predict(*measure, action);
+  add_measure_coatings(*measure, action);
+  add_measure_adjust(*measure, action);
   add_measure_demo(*measure, action);
 }
 

@@ -408,6 +408,27 @@ class Fit(ProgramTest):
         self.assertEqual(self.files(), ["none"])
 
 
+    def test_coatings_and_adjust_write_lenses(self):
+        merged = self.demo / "merged"
+        done = self.run_program("measure", "coatings", "tessar", merged, "-o", "learnt.toml", "--rounds", "1", "--width",
+                                "80", "--max-ghosts", "4", "--json")
+        self.assertIn("reflectances of surfaces", done.stderr.decode())  # four ghosts do not determine six reflectances
+        done = json.loads(done.stdout)
+        self.assertEqual([s["surface"] for s in done["surfaces"]], [1, 2, 3, 4, 6, 8])
+        self.assertEqual(len(done["ghosts"]), 4)
+        self.assertTrue(done["warnings"])
+        self.assertIn("measured_nm", (self.folder / "learnt.toml").read_text())
+        self.run_program("lens", "info", "learnt.toml")
+        kept = ["--gap", "0", "--tilt", "0", "--decentre", "0", "--stop-shift", "0"]
+        done = self.run_program("measure", "adjust", "tessar", merged, "-o", "adjusted.toml", "--width", "80", *kept,
+                                "--max-ghosts", "2", "--iterations", "1", "--json")
+        self.assertEqual([n["name"] for n in json.loads(done.stdout)["numbers"]], ["distance of the sensor", "radius of the stop"])
+        self.run_program("lens", "info", "adjusted.toml")
+        self.error_of("measure", "coatings", "nolens", merged, "-o", "a.toml", code=1)
+        self.assertIn("measure merge", self.error_of("measure", "adjust", "tessar", "absent", "-o", "a.toml", code=1))
+        self.assertEqual(self.files(), ["adjusted.toml", "learnt.toml"])
+
+
 class Predict(ProgramTest):
     def setUp(self):
         super().setUp()

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "contrejour/expert/learn_lens.h"
+#include "measure/prescription/channel_coating.h"
+#include "measure/prescription/ghost_energies.h"
+#include "measure/prescription/nonnegative.h"
+#include "measure/prescription/open_surfaces.h"
+#include "measure/prescription/reflectance_fit.h"
+
+namespace contrejour {
+namespace {
+
+constexpr int kBands = 16;             // of the spectrum, for means over channels
+constexpr double kSettled = 0.01;      // of a logarithm, between two rounds
+constexpr double kAlike = 0.95;        // correlation of two energies
+constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing and the light's flux leave uncertain
+constexpr double kLeastReflectance = 1e-5;
+constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+
+// What stays the same in all rounds.
+struct CoatingTask {
+  const LensPhotographs& photographs;
+  const CoatingFitOptions& options;
+  LensStations stations;
+  std::vector<Ghost> ghosts;
+  std::vector<GhostSurfaces> unknowns_of;  // of each ghost
+  std::vector<int> surfaces;               // 1-based, of each unknown
+  std::vector<SpectralBand> bands;
+};
+
+// The state of one channel after a round.
+struct ChannelFit {
+  NonnegativeSolution energies;
+  ReflectanceFit fit;
+};
+using RoundFit = std::array<ChannelFit, 3>;
+
+bool is_coatable(const SurfaceState& surface) {
+  return surface.kind == SurfaceKind::Refracting && is_air(surface.before) != is_air(surface.after);
+}
+
+Result<CoatingTask> prepare(const LensPhotographs& photographs, const CoatingFitOptions& options,
+                            const Context& context) {
+  const auto lens = configure_lens(photographs.lens, photographs.settings);
+  if (!lens) return tl::unexpected(lens.error());
+  auto stations = lens_stations(photographs, *lens, options.max_width, context);
+  if (!stations) return tl::unexpected(stations.error());
+  auto ghosts = visible_ghosts(*stations, *lens, options.max_ghosts, context);
+  if (!ghosts) return tl::unexpected(ghosts.error());
+  if (ghosts->empty()) return invalid_argument("no ghost of this lens reaches the pictures");
+  CoatingTask task{photographs, options, std::move(*stations), std::move(*ghosts), {}, {}, {}};
+  task.bands = spectral_bands(kBands, photographs.spectrum, ColourSpace::Rec709);
+  std::vector<int> unknown_of(lens->surfaces.size(), -1);
+  for (std::size_t k = 0; k < photographs.lens.surfaces.size(); ++k) {
+    if (!is_coatable(lens->surfaces[k])) continue;
+    unknown_of[k] = static_cast<int>(task.surfaces.size());
+    task.surfaces.push_back(static_cast<int>(k) + 1);
+  }
+  for (const Ghost& ghost : task.ghosts)
+    task.unknowns_of.push_back(
+        {{unknown_of[static_cast<std::size_t>(ghost.i - 1)], unknown_of[static_cast<std::size_t>(ghost.j - 1)]}});
+  return task;
+}
+
+// In units of the residuals' own spread, if that is larger than the noise's.
+EnergyEquations scaled(EnergyEquations energies, const Eigen::VectorXd& ratio, double pixels) {
+  const double chi2 =
+      (energies.yy - 2.0 * energies.b.dot(ratio) + ratio.dot(energies.a * ratio)) / std::max(pixels, 1.0);
+  const double scale = 1.0 / std::max(chi2, 1.0);
+  energies.a *= scale;
+  energies.b *= scale;
+  energies.yy *= scale;
+  return energies;
+}
+
+// The covariance's diagonal of the ratios' errors that a sum over pixels does not know: of what is alike in all pixels
+// of a station, by leaving out each station once (Quenouille 1956, Tukey 1958).
+Eigen::VectorXd scatter_of(const SweepEnergies& energies, std::size_t channel) {
+  const std::size_t count = energies.by_station.size();
+  std::vector<Eigen::VectorXd> all;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(energies.ghosts);
+  for (std::size_t k = 0; k < count; ++k) {
+    const EnergyEquations of = energies.sum(channel, static_cast<std::ptrdiff_t>(k));
+    all.push_back(nonnegative_least_squares(of.a, of.b).x);
+    mean += all.back() / static_cast<double>(count);
+  }
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(energies.ghosts);
+  for (const Eigen::VectorXd& ratio : all)
+    variance += (ratio - mean).cwiseAbs2() * (static_cast<double>(count) - 1.0) / static_cast<double>(count);
+  return variance;
+}
+
+// The same equations with more variance in the ratios: A becomes (A^-1 + V)^-1, which exists for a singular A, too.
+EnergyEquations widened(const EnergyEquations& of, const Eigen::VectorXd& variance) {
+  const Eigen::Index count = of.b.size();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(Eigen::MatrixXd::Identity(count, count) +
+                                                     of.a * variance.asDiagonal());
+  EnergyEquations wide{factors.solve(of.a), factors.solve(of.b), of.yy};
+  wide.a = (0.5 * (wide.a + wide.a.transpose())).eval();
+  return wide;
+}
+
+ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel,
+                       const Eigen::VectorXd& scatter, std::ptrdiff_t without = -1) {
+  EnergyEquations of = energies.sum(channel, without);
+  const Eigen::VectorXd ratio = nonnegative_least_squares(of.a, of.b).x;
+  of = widened(scaled(of, ratio, energies.pixels(channel)), scatter + kLeastError * kLeastError * ratio.cwiseAbs2());
+  ChannelFit fit{nonnegative_least_squares(of.a, of.b), {}};
+  fit.fit =
+      fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error, static_cast<int>(task.surfaces.size()), {});
+  fit.fit.x = refined_logarithms(task.unknowns_of, of, fit.fit.x, {});
+  return fit;
+}
+
+// Standard errors of the reflectances' logarithms by leaving out each station once.
+Eigen::VectorXd jackknife_errors(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel) {
+  const std::size_t count = energies.by_station.size();
+  const Eigen::VectorXd scatter = scatter_of(energies, channel);
+  std::vector<Eigen::VectorXd> all;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task.surfaces.size()));
+  for (std::size_t k = 0; k < count; ++k) {
+    all.push_back(fit_channel(task, energies, channel, scatter, static_cast<std::ptrdiff_t>(k)).fit.x);
+    mean += all.back() / static_cast<double>(count);
+  }
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(mean.size());
+  for (const Eigen::VectorXd& x : all)
+    variance += (x - mean).cwiseAbs2() * (static_cast<double>(count) - 1.0) / static_cast<double>(count);
+  return variance.cwiseSqrt();
+}
+
+// Reflectances of the unknowns' surfaces.
+std::vector<Rgb> reflectances_of(const CoatingTask& task, const LensState& lens) {
+  std::vector<Rgb> all;
+  for (const int surface : task.surfaces) {
+    Rgb of = channel_reflectance(lens.surfaces[static_cast<std::size_t>(surface - 1)], task.bands);
+    for (double& value : of) value = std::max(value, kLeastReflectance);
+    all.push_back(of);
+  }
+  return all;
+}
+
+void set_coatings(const CoatingTask& task, const LensState& state, const std::vector<Rgb>& reflectances,
+                  Prescription& lens) {
+  for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
+    const auto at = static_cast<std::size_t>(task.surfaces[k] - 1);
+    lens.surfaces[at].coating = channel_coating(state.surfaces[at], reflectances[k], task.bands);
+  }
+}
+
+double largest_change(const RoundFit& round) {
+  double most = 0.0;
+  for (const ChannelFit& channel : round) most = std::max(most, channel.fit.x.cwiseAbs().maxCoeff());
+  return most;
+}
+
+void add_surfaces(const CoatingTask& task, const RoundFit& round, const std::vector<Rgb>& reflectances,
+                  const std::array<Eigen::VectorXd, 3>& jackknife, LearntCoatings& learnt) {
+  const ReflectanceOptions options;
+  for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
+    LearntReflectance of{task.surfaces[k], true, reflectances[k], {}, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto at = static_cast<Eigen::Index>(k);
+      of.relative_error[c] = std::max(round[c].fit.error[at], jackknife[c][at]);
+      of.determined[c] = of.relative_error[c] <= options.most_error;
+    }
+    learnt.surfaces.push_back(of);
+  }
+  learnt.unknowns = static_cast<int>(task.surfaces.size());
+  for (std::size_t c = 0; c < 3; ++c) learnt.rank[c] = round[c].fit.rank;
+}
+
+// total: by how much reflectances have changed since the lens as it was written, before this round.
+void add_ghosts(const CoatingTask& task, const RoundFit& round, const std::array<Eigen::VectorXd, 3>& total,
+                LearntCoatings& learnt) {
+  for (std::size_t g = 0; g < task.ghosts.size(); ++g) {
+    GhostEnergy energy{task.ghosts[g], {}, {}};
+    for (std::size_t c = 0; c < 3; ++c) {
+      double since = 0.0;
+      for (const int unknown : task.unknowns_of[g].unknown) since += unknown >= 0 ? total[c][unknown] : 0.0;
+      const auto at = static_cast<Eigen::Index>(g);
+      energy.ratio[c] = std::exp(since) * round[c].energies.x[at];
+      energy.error[c] = std::exp(since) * round[c].energies.error[at];
+    }
+    learnt.ghosts.push_back(energy);
+    for (std::size_t h = 0; h < g; ++h) {
+      const double both = round[1].energies.correlation(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(h));
+      if (std::abs(both) > kAlike) learnt.alike.emplace_back(task.ghosts[h], task.ghosts[g]);
+    }
+  }
+}
+
+void add_warnings(const CoatingTask& task, const RoundFit& round, LearntCoatings& learnt) {
+  std::vector<std::pair<std::string, std::string>> texts;  // and the channels that they hold for
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const std::string& text : open_surface_texts(round[c].fit.open, task.surfaces)) {
+      const auto known = std::ranges::find(texts, text, &std::pair<std::string, std::string>::first);
+      if (known == texts.end())
+        texts.emplace_back(text, kChannels[c]);
+      else
+        known->second += fmt::format(", {}", kChannels[c]);
+    }
+  }
+  for (const auto& [text, channels] : texts) learnt.warnings.push_back(fmt::format("{} ({})", text, channels));
+}
+
+// Reads once what the pictures say about the lens as drawn now.
+Result<std::pair<SweepEnergies, RoundFit>> one_round(const CoatingTask& task, const LensState& lens,
+                                                     const Context& context) {
+  auto energies = sweep_energies({&task.stations, lens, task.ghosts, task.options.model_error}, context);
+  if (!energies) return tl::unexpected(energies.error());
+  RoundFit round;
+  for (std::size_t c = 0; c < 3; ++c) round[c] = fit_channel(task, *energies, c, scatter_of(*energies, c));
+  return std::pair{std::move(*energies), std::move(round)};
+}
+
+}  // namespace
+
+Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const CoatingFitOptions& options,
+                                      const Context& context) {
+  if (options.max_ghosts < 1 || options.max_rounds < 1 || !(options.model_error >= 0.0))
+    return invalid_argument("ghosts and rounds must be 1 or more, the error of the model 0 or more");
+  const auto task = prepare(photographs, options, context);
+  if (!task) return tl::unexpected(task.error());
+  LearntCoatings learnt;
+  learnt.lens = photographs.lens;
+  std::array<Eigen::VectorXd, 3> total;
+  total.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task->surfaces.size())));
+  LensSettings settings = photographs.settings;
+  while (true) {
+    const auto lens = configure_lens(learnt.lens, settings);
+    if (!lens) return tl::unexpected(lens.error());
+    const auto round = one_round(*task, *lens, context);
+    if (!round) return tl::unexpected(round.error());
+    const auto& [energies, fits] = *round;
+    std::vector<Rgb> reflectances = reflectances_of(*task, *lens);
+    for (std::size_t k = 0; k < reflectances.size(); ++k)
+      for (std::size_t c = 0; c < 3; ++c) reflectances[k][c] *= std::exp(fits[c].fit.x[static_cast<Eigen::Index>(k)]);
+    set_coatings(*task, *lens, reflectances, learnt.lens);
+    settings.coating.reset();  // from now on those that were learnt count
+    settings.coating_at.clear();
+    ++learnt.rounds;
+    if (learnt.rounds == options.max_rounds || largest_change(fits) < kSettled) {
+      std::array<Eigen::VectorXd, 3> jackknife;
+      for (std::size_t c = 0; c < 3; ++c) jackknife[c] = jackknife_errors(*task, energies, c);
+      add_surfaces(*task, fits, reflectances, jackknife, learnt);
+      add_ghosts(*task, fits, total, learnt);
+      add_warnings(*task, fits, learnt);
+      return learnt;
+    }
+    for (std::size_t c = 0; c < 3; ++c) total[c] += fits[c].fit.x;
+  }
+}
+
+}  // namespace contrejour

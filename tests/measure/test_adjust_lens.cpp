@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tilt, an air space and a focus shift that were planted in a lens, from simulated photographs of its ghosts.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "base/units.h"
+#include "lens_capture.h"
+#include "measure/prescription/lens_numbers.h"
+#include "measure/prescription/traced_figures.h"
+
+using namespace contrejour;
+using namespace contrejour::testing;
+
+namespace {
+
+Eigen::Index index_of(const std::vector<LearntNumber>& numbers, LearntKind kind, int first = 0) {
+  const auto at = std::ranges::find_if(
+      numbers, [&](const LearntNumber& n) { return n.kind == kind && (first == 0 || n.first == first); });
+  return at - numbers.begin();
+}
+
+}  // namespace
+
+TEST_CASE("lens numbers: a body is tilted as a file's group is, and gaps move what is behind them") {
+  const Prescription lens = *find_lens("tessar");
+  const AdjustableLens adjustable = *adjustable_lens(lens, kStopped, {});
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(adjustable.numbers.size()));
+  values[index_of(adjustable.numbers, LearntKind::TiltX, 3)] = rad_from_deg(0.3);
+  values[index_of(adjustable.numbers, LearntKind::TiltY, 3)] = rad_from_deg(-0.2);
+  values[index_of(adjustable.numbers, LearntKind::DecentreX, 3)] = 0.1;
+  std::string toml = write_lens_toml(lens);
+  toml.insert(toml.find("\nsurfaces"),
+              "\ngroups = [{ surfaces = [3, 4], decentre_mm = [0.1, 0], tilt_deg = [0.3, -0.2] }]");
+  const auto grouped = read_lens_toml(toml, "grouped.toml");
+  REQUIRE_MESSAGE(grouped.has_value(), grouped.error().to_string());
+  const Prescription moved = adjustable.prescription(values);
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k) {
+    CHECK(length(moved.surfaces[k].pose.axis - grouped->surfaces[k].pose.axis) < 1e-9);
+    CHECK(length(moved.surfaces[k].pose.shift_mm - grouped->surfaces[k].pose.shift_mm) < 1e-9);
+  }
+  values.setZero();
+  values[index_of(adjustable.numbers, LearntKind::Gap)] = 0.25;
+  values[index_of(adjustable.numbers, LearntKind::Focus)] = -0.1;
+  values[index_of(adjustable.numbers, LearntKind::StopRadius)] = 0.02;
+  const LensState state = *adjustable.state(values);
+  CHECK(state.surfaces.back().z_mm == doctest::Approx(adjustable.nominal.surfaces.back().z_mm + 0.25));
+  CHECK(state.sensor_z_mm == doctest::Approx(adjustable.nominal.sensor_z_mm + 0.15));
+  CHECK(state.stop_radius_mm == doctest::Approx(1.02 * adjustable.nominal.stop_radius_mm));
+}
+
+TEST_CASE("adjust lens: a tilt of 0.1 degrees, an air space and the focus are found [slow]") {
+  const Prescription believed = *find_lens("tessar");
+  const AdjustableLens planted = *adjustable_lens(believed, kStopped, {});
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(planted.numbers.size()));
+  values[index_of(planted.numbers, LearntKind::TiltY, 3)] = rad_from_deg(0.1);
+  values[index_of(planted.numbers, LearntKind::Gap)] = 0.1;
+  values[index_of(planted.numbers, LearntKind::Focus)] = 0.2;
+  LensState truth = *planted.state(values);
+  for (SurfaceState& s : truth.surfaces)
+    if (is_air(s.before) != is_air(s.after)) s.coating = {"", QuarterWave{1.38, 480.0}};
+  const LensCapture capture = capture_lens(truth, 320, 5);
+  AdjustOptions options;
+  options.max_ghosts = 10;
+  options.max_iterations = 4;
+  // Coatings first: with wrong ones, ghosts have wrong mean wavelengths in each channel, and so wrong sizes.
+  CoatingFitOptions coating_options;
+  coating_options.max_rounds = 2;
+  const auto coated = learn_coatings(capture.photographs(believed, kStopped), coating_options);
+  REQUIRE_MESSAGE(coated.has_value(), coated.error().to_string());
+  const auto adjusted = adjust_lens(capture.photographs(coated->lens, kStopped), options);
+  REQUIRE_MESSAGE(adjusted.has_value(), adjusted.error().to_string());
+  for (const LearntNumber& n : adjusted->numbers) MESSAGE(learnt_name(n), ": ", n.value, " +- ", n.error, n.determined);
+  const auto& tilt = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::TiltY, 3))];
+  CHECK(std::abs(deg_from_rad(tilt.value) - 0.1) < 0.02);
+  CHECK(tilt.determined);
+  const auto& gap = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::Gap))];
+  CHECK(std::abs(gap.value - 0.1) < 0.03);
+  const auto& focus = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::Focus))];
+  CHECK(std::abs(focus.value - 0.2) < 0.2);
+  MESSAGE("off by ", adjusted->rms_before_px, " then ", adjusted->rms_after_px, " px; ", adjusted->drawings);
+  CHECK(adjusted->rms_after_px < 0.5 * adjusted->rms_before_px);
+  CHECK(configure_lens(adjusted->lens, kStopped).has_value());
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflectances from ghosts of a simulated sweep, whose lens has other coatings than the file that is believed.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "lens_capture.h"
+#include "measure/prescription/channel_coating.h"
+
+using namespace contrejour;
+using namespace contrejour::testing;
+
+namespace {
+
+// The Tessar, whose file has one coating everywhere, with another one on each surface, or none.
+Prescription coated_tessar() {
+  Prescription lens = *find_lens("tessar");
+  const auto coat = [&](int surface, double quarter_wave_nm) {
+    lens.surfaces[static_cast<std::size_t>(surface - 1)].coating = {"", QuarterWave{1.38, quarter_wave_nm}};
+  };
+  coat(1, 430.0);
+  coat(2, 520.0);
+  coat(3, 640.0);
+  lens.surfaces[3].coating = {};
+  coat(6, 560.0);
+  lens.surfaces[7].coating = {};
+  return lens;
+}
+
+const LensCapture& capture() {
+  static const LensCapture all = capture_lens(*configure_lens(coated_tessar(), kStopped), 320, 7);
+  return all;
+}
+
+LensPhotographs photographs() { return capture().photographs(*find_lens("tessar"), kStopped); }
+
+bool warns_of(const LearntCoatings& learnt, const std::string& text) {
+  return std::ranges::any_of(learnt.warnings, [&](const std::string& w) { return w.find(text) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("learn coatings: reflectances that the ghosts determine, of coatings that differ from the file's [slow]") {
+  CoatingFitOptions options;
+  options.max_rounds = 3;
+  const auto learnt = learn_coatings(photographs(), options);
+  REQUIRE_MESSAGE(learnt.has_value(), learnt.error().to_string());
+  const LensState truth = *configure_lens(coated_tessar(), kStopped), lens = *configure_lens(learnt->lens, kStopped);
+  const auto bands = spectral_bands(16, IlluminantD65{}, ColourSpace::Rec709);
+  CHECK(learnt->unknowns == 6);
+  CHECK(learnt->surfaces.size() == 6);
+  for (const LearntReflectance& of : learnt->surfaces) {
+    const auto at = static_cast<std::size_t>(of.surface - 1);
+    const Rgb real = channel_reflectance(truth.surfaces[at], bands),
+              file = channel_reflectance(lens.surfaces[at], bands);
+    for (std::size_t c = 0; c < 3; ++c) {
+      CAPTURE(of.surface);
+      CAPTURE(c);
+      MESSAGE("surface ", of.surface, " channel ", c, ": ", of.reflectance[c], " true ", real[c], " error ",
+              of.relative_error[c]);
+      CHECK(of.determined[c]);
+      CHECK(of.reflectance[c] == doctest::Approx(real[c]).epsilon(0.1));
+      CHECK(file[c] == doctest::Approx(of.reflectance[c]).epsilon(0.02));  // the file says what was learnt
+    }
+  }
+  CHECK(learnt->rank == std::array<int, 3>{6, 6, 6});
+  CHECK(learnt->warnings.empty());
+}
+
+TEST_CASE("learn coatings: few ghosts leave reflectances open, and the warning names their surfaces [slow]") {
+  CoatingFitOptions options;
+  options.max_rounds = 1;
+  options.max_ghosts = 2;  // no odd cycle: only products are known
+  const auto learnt = learn_coatings(photographs(), options);
+  REQUIRE_MESSAGE(learnt.has_value(), learnt.error().to_string());
+  CHECK(learnt->rank[1] <= 2);
+  CHECK(std::ranges::count_if(learnt->surfaces, [](const auto& s) { return s.determined[1]; }) == 0);
+  for (const GhostEnergy& energy : learnt->ghosts) {
+    CHECK(warns_of(*learnt, std::to_string(energy.ghost.i)));
+    CHECK(warns_of(*learnt, std::to_string(energy.ghost.j)));
+  }
+}
+
+TEST_CASE("learn coatings: the same bits for any number of threads [slow]") {
+  CoatingFitOptions options;
+  options.max_rounds = 1;
+  options.max_width = 80;
+  options.max_ghosts = 6;
+  const auto one = learn_coatings(photographs(), options, {.threads = 1});
+  const auto three = learn_coatings(photographs(), options, {.threads = 3});
+  REQUIRE(one.has_value());
+  REQUIRE(three.has_value());
+  CHECK(write_lens_toml(one->lens) == write_lens_toml(three->lens));
+}
+
+TEST_CASE("learn coatings: what cannot be is refused") {
+  CoatingFitOptions options;
+  options.max_ghosts = 0;
+  CHECK(!learn_coatings(photographs(), options));
+  LensPhotographs dark;
+  dark.lens = *find_lens("tessar");
+  CHECK(!learn_coatings(dark));
+}
