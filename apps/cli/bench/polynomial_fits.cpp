@@ -35,14 +35,17 @@ class FitsBench {
   }
 
   Result<void> measure_dense();
+  Result<void> measure_more_dense(const RaySamples& grid, const RaySamples& random, const RaySamples& unseen);
+  void add_overview(std::string name, const Polynomial& polynomial, bool along_x);
+  void add_orthogonality();
   Result<void> start_sparse();
   Result<void> measure_algorithms();
   Result<void> measure_annealing();
   Result<void> measure_variation();
   Result<void> measure_unfitted();
 
-  Result<void> add_dense(std::string name, const Samples& samples, const Samples& unseen, Basis basis,
-                         std::optional<double> thesis_error, std::string note = {});
+  Result<Polynomial> add_dense(std::string name, const Samples& samples, const Samples& unseen, Basis basis,
+                               std::optional<double> thesis_error, std::string note = {});
   Result<void> add_pursuit(std::string name, const PursuitOptions& pursuit, std::optional<thesis::Figure> figure,
                            std::string note);
   Result<SparseFit> add_annealing(const std::string& table, std::string name, const AnnealingOptions& annealing,
@@ -55,34 +58,85 @@ class FitsBench {
   Samples unseen_;
 };
 
-Result<void> FitsBench::add_dense(std::string name, const Samples& samples, const Samples& unseen, Basis basis,
-                                  std::optional<double> thesis_error, std::string note) {
+Result<Polynomial> FitsBench::add_dense(std::string name, const Samples& samples, const Samples& unseen, Basis basis,
+                                        std::optional<double> thesis_error, std::string note) {
   const auto fit = DenseFit::fit(samples, thesis::kDegree, basis);
   if (!fit) return tl::unexpected(fit.error());
   fits_.rows.push_back({"dense", std::move(name), static_cast<int>(fit->polynomial().terms.size()),
                         static_cast<int>(samples.values.size()), 0, fit->error(), rms_error(fit->polynomial(), unseen),
                         fit->seconds(), thesis_error, std::nullopt, std::move(note)});
-  return {};
+  return fit->polynomial();
+}
+
+// Figure 5.6: the error over the ray's direction along x, of the light on the axis.
+void FitsBench::add_overview(std::string name, const Polynomial& polynomial, bool along_x) {
+  constexpr int kPoints = 200;
+  PolynomialCurve curve{"overview", std::move(name), {}, {}};
+  for (int k = 0; k <= kPoints; ++k) {
+    const double dx = 2.0 * k / kPoints - 1.0;
+    const Inputs at{0.0, 0.0, dx, 0.3};  // y is 0 along dy = 0
+    const TwoLensesRay ray = trace(TwoLenses{}, kFirstGhost, at);
+    const double exact = along_x ? ray.sensor.x : ray.sensor.y;
+    if (ray.arrives) curve.line.push_back({0.5 * dx, std::abs(evaluate(polynomial, at) - exact)});
+  }
+  fits_.curves.push_back(std::move(curve));
+}
+
+// Figure 3.3: the sum of how far the products of Legendre polynomials are from 1 and 0, as means over a grid.
+void FitsBench::add_orthogonality() {
+  PolynomialCurve curve{"orthogonality", "Legendre polynomials up to degree 10", {}, {}};
+  for (int points = 16; points <= 4096; points *= 2) {
+    double sum = 0.0;
+    for (int i = 0; i <= thesis::kDegree; ++i) {
+      for (int j = 0; j <= thesis::kDegree; ++j) {
+        const Polynomial both{Basis::Legendre,
+                              {{{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j), 0, 0}, 1.0}}};
+        double product = 0.0;
+        for (int k = 0; k < points; ++k) {
+          const double x = (2.0 * k + 1.0) / points - 1.0;
+          product += evaluate(both, {x, x, 0.0, 0.0}) / points;
+        }
+        sum += std::abs(product - (i == j ? 1.0 : 0.0));
+      }
+    }
+    curve.line.push_back({static_cast<double>(points), sum});
+  }
+  fits_.curves.push_back(std::move(curve));
 }
 
 // sabatschus2022 5.3.1, both coordinates, and what its tracer's fault changes.
 Result<void> FitsBench::measure_dense() {
-  const TwoLenses published, spheres{TwoLenses::Tracer::Spheres};
+  const TwoLenses published;
   const RaySamples grid = grid_samples(published, kFirstGhost, thesis::kGridSide);
   const RaySamples random = random_samples(published, kFirstGhost, thesis::kDenseSamples, options_.seed);
   const RaySamples unseen = random_samples(published, kFirstGhost, thesis::kSamples, kUnseenSeed);
-  if (auto ok = add_dense("x, grid", grid.x(), unseen.x(), Basis::Monomials, thesis::kDenseGrid); !ok) return ok;
-  if (auto ok = add_dense("x, random", random.x(), unseen.x(), Basis::Monomials, thesis::kDenseRandom); !ok) return ok;
-  if (!options_.full) return {};
-  if (auto ok = add_dense("x, random, Legendre", random.x(), unseen.x(), Basis::Legendre, {}, "the same polynomial");
-      !ok)
-    return ok;
-  if (auto ok = add_dense("y, grid", grid.y(), unseen.y(), Basis::Monomials, {}); !ok) return ok;
-  if (auto ok = add_dense("y, random", random.y(), unseen.y(), Basis::Monomials, {}); !ok) return ok;
-  const RaySamples right = random_samples(spheres, kFirstGhost, thesis::kDenseSamples, options_.seed);
-  const RaySamples right_unseen = random_samples(spheres, kFirstGhost, thesis::kSamples, kUnseenSeed);
-  return add_dense("x, random, spheres", right.x(), right_unseen.x(), Basis::Monomials, {},
-                   "without the tracer's cylinders");
+  const auto x_grid = add_dense("x, grid", grid.x(), unseen.x(), Basis::Monomials, thesis::kDenseGrid);
+  if (!x_grid) return tl::unexpected(x_grid.error());
+  const auto x_random = add_dense("x, random", random.x(), unseen.x(), Basis::Monomials, thesis::kDenseRandom);
+  if (!x_random) return tl::unexpected(x_random.error());
+  add_overview("x, grid", *x_grid, true);
+  add_overview("x, random", *x_random, true);
+  add_orthogonality();
+  return options_.full ? measure_more_dense(grid, random, unseen) : Result<void>{};
+}
+
+Result<void> FitsBench::measure_more_dense(const RaySamples& grid, const RaySamples& random, const RaySamples& unseen) {
+  const auto legendre =
+      add_dense("x, random, Legendre", random.x(), unseen.x(), Basis::Legendre, {}, "the same polynomial");
+  if (!legendre) return tl::unexpected(legendre.error());
+  const auto y_grid = add_dense("y, grid", grid.y(), unseen.y(), Basis::Monomials, {});
+  if (!y_grid) return tl::unexpected(y_grid.error());
+  const auto y_random = add_dense("y, random", random.y(), unseen.y(), Basis::Monomials, {});
+  if (!y_random) return tl::unexpected(y_random.error());
+  add_overview("y, grid", *y_grid, false);
+  add_overview("y, random", *y_random, false);
+  const TwoLenses right{TwoLenses::Tracer::Spheres};
+  const RaySamples rays = random_samples(right, kFirstGhost, thesis::kDenseSamples, options_.seed);
+  const RaySamples others = random_samples(right, kFirstGhost, thesis::kSamples, kUnseenSeed);
+  const auto spheres =
+      add_dense("x, random, spheres", rays.x(), others.x(), Basis::Monomials, {}, "without the tracer's cylinders");
+  if (!spheres) return tl::unexpected(spheres.error());
+  return {};
 }
 
 Result<void> FitsBench::start_sparse() {
@@ -113,7 +167,7 @@ Result<void> FitsBench::add_pursuit(std::string name, const PursuitOptions& purs
   if (figure) row.thesis_error = figure->error, row.thesis_seconds = figure->seconds;
   row.note = std::move(note);
   fits_.rows.push_back(std::move(row));
-  fits_.curves.push_back({"convergence", std::move(name), fit->curve});
+  fits_.curves.push_back({"convergence", std::move(name), fit->curve, {}});
   return {};
 }
 
@@ -158,7 +212,7 @@ Result<void> FitsBench::measure_algorithms() {
       .terms = thesis::kTerms, .iterations = 5000, .samples = 0, .keep_best = true, .seed = options_.seed};
   const auto fit = add_annealing("algorithms", "annealing", all, thesis::kAnnealing, "all samples in each step");
   if (!fit) return tl::unexpected(fit.error());
-  fits_.curves.push_back({"convergence", "annealing", fit->curve});
+  fits_.curves.push_back({"convergence", "annealing", fit->curve, {}});
   return {};
 }
 
@@ -176,7 +230,7 @@ Result<void> FitsBench::measure_annealing() {
         add_annealing("annealing", "annealing, published", options,
                       published ? std::optional(thesis::Figure{figure.error, figure.seconds}) : std::nullopt);
     if (!fit) return tl::unexpected(fit.error());
-    fits_.curves.push_back({"annealing", sizes, fit->curve});
+    fits_.curves.push_back({"annealing", sizes, fit->curve, {}});
     if (!options_.full) break;
   }
   for (const int iterations : {5000, 10000, 30000}) {
@@ -188,7 +242,7 @@ Result<void> FitsBench::measure_annealing() {
         .terms = thesis::kTerms, .iterations = iterations, .samples = 0, .keep_best = true, .seed = options_.seed};
     const auto fit = add_annealing("annealing", "annealing", options, figure, "all samples in each step");
     if (!fit) return tl::unexpected(fit.error());
-    fits_.curves.push_back({"annealing", fmt::format("all samples, {} iterations", iterations), fit->curve});
+    fits_.curves.push_back({"annealing", fmt::format("all samples, {} iterations", iterations), fit->curve, {}});
   }
   return {};
 }
@@ -197,7 +251,7 @@ Result<void> FitsBench::measure_annealing() {
 Result<void> FitsBench::measure_variation() {
   const int runs = options_.full ? kRuns : kQuickRuns;
   double sum = 0.0, squares = 0.0, seconds = 0.0;
-  PolynomialCurve curve{"variation", "runs", {}};
+  PolynomialCurve curve{"variation", "runs", {}, {}};
   for (int run = 0; run < runs; ++run) {
     const AnnealingOptions options{.terms = thesis::kTerms,
                                    .iterations = 30000,

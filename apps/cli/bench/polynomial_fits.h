@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "contrejour/context.h"
 #include "contrejour/expert/published_fits.h"
+#include "contrejour/expert/vec.h"
 #include "contrejour/result.h"
 
 namespace contrejour::cli {
@@ -25,10 +26,11 @@ struct PolynomialRow {
   std::string note = {};
 };
 
-// The errors of a search, in a plot of that name.
+// One curve of the plot of that name: the errors of a search, or a line.
 struct PolynomialCurve {
   std::string plot, name;
-  std::vector<published::CurvePoint> points;
+  std::vector<published::CurvePoint> points = {};
+  std::vector<Vec2> line = {};
 };
 
 struct PolynomialFits {

@@ -108,8 +108,11 @@ Result<std::string> draw_two_lenses_series(const PolynomialPictureOptions& optio
                         {"as-published-traced", {}, false}};
   std::vector<NamedPicture> pictures;
   for (const Step& step : steps) {
-    TwoLensesPicture picture{
-        .system = step.system, .ghost = kGhost, .half_size = kHalfSize, .points = options.full ? 2000 : 800};
+    TwoLensesPicture picture;
+    picture.system = step.system;
+    picture.ghost = kGhost;
+    picture.half_size = kHalfSize;
+    picture.points = options.full ? 2000 : 800;
     FittedPair fitted;
     if (step.fitted) {
       auto pair = fit_two_lenses(step.system, kGhost);
@@ -124,14 +127,16 @@ Result<std::string> draw_two_lenses_series(const PolynomialPictureOptions& optio
   return write_series(options.folder, "two-lenses", 3, pictures);
 }
 
-Result<std::string> draw_tessar_series(const PolynomialPictureOptions& options, const Context& context) {
-  const auto prescription = find_lens("tessar");
+Result<std::string> draw_heliar_series(const PolynomialPictureOptions& options, const Context& context) {
+  const auto prescription = find_lens("heliar");
   if (!prescription) return tl::unexpected(prescription.error());
-  LensSettings settings{.f_number = 8.0};
+  LensSettings settings{.f_number = 16.0};
   settings.iris.blades = 6;
   const auto lens = configure_lens(*prescription, settings);
   if (!lens) return tl::unexpected(lens.error());
-  PictureOptions picture{.points = options.full ? 1000 : 400};
+  PictureOptions picture;
+  picture.light = {0.2, 0.1};
+  if (options.full) picture.points = 1000, picture.samples = 2000, picture.degree = 6;
   std::vector<NamedPicture> pictures;
   auto traced = draw_traced_ghosts(*lens, picture, context);
   if (!traced) return tl::unexpected(traced.error());
@@ -148,7 +153,7 @@ Result<std::string> draw_tessar_series(const PolynomialPictureOptions& options, 
     if (!image) return tl::unexpected(image.error());
     pictures.push_back({name, std::move(*image)});
   }
-  return write_series(options.folder, "tessar", 2, pictures);
+  return write_series(options.folder, "heliar", 2, pictures);
 }
 
 }  // namespace
@@ -157,9 +162,9 @@ Result<std::string> draw_polynomial_pictures(const PolynomialPictureOptions& opt
   const Context quiet = without_progress(context);
   auto two = draw_two_lenses_series(options, quiet);
   if (!two) return two;
-  auto tessar = draw_tessar_series(options, quiet);
-  if (!tessar) return tessar;
-  return *two + *tessar;
+  auto heliar = draw_heliar_series(options, quiet);
+  if (!heliar) return heliar;
+  return *two + *heliar;
 }
 
 }  // namespace contrejour::cli

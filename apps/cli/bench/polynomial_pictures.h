@@ -17,7 +17,7 @@ struct PolynomialPictureOptions {
 };
 
 // Writes each picture, and two with all of them side by side: `two-lenses`, sabatschus2022's figure 5.11 step by step,
-// and `tessar`, its code's faults with a real lens. Returns a table of how far each is from the traced picture.
+// and `heliar`, its code's faults with a real lens. Returns a table of how far each is from the traced picture.
 [[nodiscard]] Result<std::string> draw_polynomial_pictures(const PolynomialPictureOptions& options,
                                                            const Context& context);
 

@@ -37,7 +37,8 @@ std::string optional_text(const std::optional<double>& value, const Format& form
 }
 
 std::string table_text(const PolynomialFits& fits, const TableTitle& title) {
-  TextTable table({"<fit", "terms", "samples", "steps", "error", "unseen", "s", "thesis error", "thesis s", "<"});
+  TextTable table(
+      {"<fit", "terms", "samples", "steps", "error", "unseen", "processor s", "thesis error", "thesis s", "<"});
   bool any = false;
   for (const PolynomialRow& row : fits.rows) {
     if (row.table != title.table) continue;
@@ -74,7 +75,8 @@ double best_of(const published::CurvePoint& point) { return point.best; }
 LineChart chart_of(const PolynomialFits& fits, std::string_view plot, const AxisValue& x, const AxisValue& y) {
   LineChart chart;
   for (const PolynomialCurve& curve : fits.curves)
-    if (curve.plot == plot) chart.curves.push_back(curve_of(curve, x, y));
+    if (curve.plot == plot)
+      chart.curves.push_back(curve.line.empty() ? curve_of(curve, x, y) : ChartCurve{curve.name, curve.line});
   return chart;
 }
 
@@ -82,7 +84,8 @@ LineChart chart_of(const PolynomialFits& fits, std::string_view plot, const Axis
 
 std::string polynomial_fits_text(const PolynomialFits& fits) {
   std::string text =
-      "Errors are root mean squares, in units of the thesis's scene; its times are those of a Core i7-8700K.\n";
+      "Errors are root mean squares, in units of the thesis's scene; its times are those of a Core i7-8700K\nwith up "
+      "to six threads, ours processor time.\n";
   for (const TableTitle& title : kFitTitles) text += table_text(fits, title);
   return text;
 }
@@ -105,7 +108,9 @@ Json polynomial_fits_json(const PolynomialFits& fits) {
   for (const PolynomialCurve& curve : fits.curves) {
     Json points = Json::array();
     for (const auto& p : curve.points) points.push_back({p.step, p.seconds, p.error, p.best});
-    curves.push_back({{"plot", curve.plot}, {"name", curve.name}, {"step_seconds_error_best", std::move(points)}});
+    for (const Vec2 p : curve.line) points.push_back({p.x, p.y});
+    const char* columns = curve.line.empty() ? "step_seconds_error_best" : "x_y";
+    curves.push_back({{"plot", curve.plot}, {"name", curve.name}, {columns, std::move(points)}});
   }
   return {{"machine", machine_text()}, {"rows", std::move(rows)}, {"curves", std::move(curves)}};
 }
@@ -131,7 +136,6 @@ std::vector<PolynomialPlot> polynomial_plots(const PolynomialFits& fits) {
   };
   const std::string rms = "RMS error, scene units";
   add("convergence", chart_of(fits, "convergence", step_of, error_of), "Errors by steps (figure 5.7)", "steps", rms);
-  plots.reserve(8);
   LineChart times = chart_of(fits, "convergence", seconds_of, best_of);
   if (!times.curves.empty()) {
     times.curves.push_back(thesis_mark("thesis, omp", thesis::kPursuit.seconds, thesis::kPursuit.error));
@@ -156,6 +160,12 @@ std::vector<PolynomialPlot> polynomial_plots(const PolynomialFits& fits) {
     break;
   }
   add("variation", std::move(variation), "Annealing, other seeds (figure 5.10)", "run", rms);
+  add("overview", chart_of(fits, "overview", step_of, error_of), "Errors of dense polynomials (figure 5.6)",
+      "direction dx at dy = 0.15", "error, scene units");
+  LineChart orthogonality = chart_of(fits, "orthogonality", step_of, error_of);
+  orthogonality.log_x = true;
+  add("orthogonality", std::move(orthogonality), "Legendre polynomials on grids (figure 3.3)", "points of the grid",
+      "sum of errors of all products");
   add("zones", chart_of(fits, "zones", step_of, best_of), "Few terms in zones of the field", "steps",
       "RMS error, pixels");
   return plots;

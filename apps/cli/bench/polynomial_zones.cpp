@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/polynomial_zones.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <utility>
 #include <vector>
 
@@ -76,11 +77,11 @@ Result<void> add_zones(PolynomialFits& fits, const LensState& lens, const Ghost&
 // Our fit of the ghosts: one for the whole field and all wavelengths.
 Result<void> add_whole_field(PolynomialFits& fits, const LensState& lens, const std::vector<Ghost>& ghosts,
                              const Context& context) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const auto fit =
       fit_polynomials(lens, {.half_field_rad = std::atan(largest_field_of(lens)), .ghosts = ghosts}, context);
   if (!fit) return tl::unexpected(fit.error());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   for (const GhostPolynomials& ghost : fit->ghosts) {
     for (const PolynomialZone& zone : ghost.zones) {
       if (zone.state != PolynomialZone::State::Fitted) continue;

@@ -2,8 +2,9 @@
 // Polynomials of rays as they were published, for comparison with ours (polynomial.h): dense ones and sparse choices of
 // their terms (sabatschus2022 3.3, 3.8, 3.9), and sparse ones in zones of the field (Bodonyi, Csoba and Kunkli 2025).
 // docs/physics/polynomial-published.md has their figures and ours.
-// Errors are root mean squares over samples, in the samples' units. Equal seeds give equal results on any machine with
-// the same floating-point arithmetic, for any number of threads. Thread-safety: plain values, pure functions.
+// Errors are root mean squares over samples, in the samples' units; seconds are processor time of the whole process.
+// Equal seeds give equal results on any machine with the same floating-point arithmetic, for any number of threads.
+// Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <array>

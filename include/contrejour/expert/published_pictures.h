@@ -34,13 +34,13 @@ struct PictureOptions {
   Vec2 light{0.1, 0.06};  // tangents
   double half_range = 0.02;  // of the light's tangents about the one that is fitted for
   int width = 240, height = 160;
-  int points = 400;  // squared: of each ghost, on a grid
-  bool random_points = false;  // or at random
+  int points = 400;  // squared: of each ghost, one somewhere in each cell of a grid
+  bool random_points = false;  // all of them anywhere instead
   int samples = 1200;  // of each ghost's fit
   int degree = 5;
   double lambda_nm = 550.0;
   std::uint64_t seed = 1;
-  PictureFaults faults;
+  PictureFaults faults = {};
 };
 
 // The ghosts with both reflections on one side of the stop, from dense polynomials in the light's tangents and the
@@ -58,7 +58,7 @@ struct TwoLensesPicture {
   // The polynomials of x and y, of monomials; null: rays are traced. Nothing blocks the rays of polynomials.
   const Polynomial* x = nullptr;
   const Polynomial* y = nullptr;
-  Vec2 light;  // over 0.5, from -1 to 1
+  Vec2 light = {};  // over 0.5, from -1 to 1
   int size = 160;  // of the picture, in pixels
   double half_size = 2.0;  // of the picture
   int points = 600;  // squared

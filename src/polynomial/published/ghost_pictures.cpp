@@ -177,7 +177,8 @@ Result<Image> draw_fitted_ghosts(const LensState& lens, const PictureOptions& op
       const Vec2 at = ghost.normalised(polynomial::point_in(drawn[k].box, unit));
       if (!options.faults.no_stop_position && iris_distance(lens.iris, {stop[2].at(at), stop[3].at(at)}) > 0.0)
         return std::nullopt;
-      return polynomial::SplatRay{{x[read[k].x_output].at(at), y[read[k].y_output].at(at)}, stop[4].at(at)};
+      return polynomial::SplatRay{{x[read[k].x_output].at(at), y[read[k].y_output].at(at)},
+                                  std::max(stop[4].at(at), 0.0)};
     };
     if (!polynomial::splat(target, ray, points, polynomial::flux_of(drawn[k], options.light), context))
       return interrupted();

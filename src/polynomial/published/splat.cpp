@@ -47,8 +47,8 @@ bool splat(SplatTarget& target, const RayAt& ray, const SplatPoints& points, dou
         SeededRandom random(points.seed * kBands + band);
         for (int row = first; row < last; ++row) {
           for (int column = 0; column < side; ++column) {
-            Vec2 unit{(column + 0.5) / side, (row + 0.5) / side};
-            if (points.random) unit.x = random.unit(), unit.y = random.unit();
+            Vec2 unit{random.unit(), random.unit()};
+            if (!points.random) unit = {(column + unit.x) / side, (row + unit.y) / side};
             if (const auto found = ray(unit)) part.add(found->at, each * found->weight);
           }
         }

@@ -34,8 +34,8 @@ struct SplatRay {
 using RayAt = std::function<std::optional<SplatRay>(Vec2 unit)>;
 
 struct SplatPoints {
-  int side = 1;  // side^2 rays: in the middle of each cell of a grid
-  bool random = false;  // or anywhere
+  int side = 1;  // side^2 rays: one somewhere in each cell of a grid
+  bool random = false;  // all of them anywhere instead
   std::uint64_t seed = 1;
 };
 
