@@ -46,7 +46,7 @@ double sum_of(const Image& image) { return std::accumulate(image.pixels.begin(),
 
 }  // namespace
 
-TEST_CASE("pictures from polynomials are right, and each fault of the thesis's code spoils them") {
+TEST_CASE("pictures from polynomials are right, and each fault of the thesis's code spoils them [slow]") {
   const PictureOptions options = small_picture();
   const auto traced = draw_traced_ghosts(pictured_lens(), options);
   const auto fitted = draw_fitted_ghosts(pictured_lens(), options);
@@ -68,7 +68,7 @@ TEST_CASE("pictures from polynomials are right, and each fault of the thesis's c
   }
 }
 
-TEST_CASE("pictures do not depend on the number of threads, and random points converge") {
+TEST_CASE("pictures do not depend on the number of threads, and random points converge [slow]") {
   PictureOptions options = small_picture();
   options.points = 60;
   const auto one = draw_fitted_ghosts(pictured_lens(), options, {.threads = 1});

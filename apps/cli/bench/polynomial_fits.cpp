@@ -167,7 +167,9 @@ Result<void> FitsBench::add_pursuit(std::string name, const PursuitOptions& purs
   if (figure) row.thesis_error = figure->error, row.thesis_seconds = figure->seconds;
   row.note = std::move(note);
   fits_.rows.push_back(std::move(row));
-  fits_.curves.push_back({"convergence", std::move(name), fit->curve, {}});
+  const std::string replaced = pursuit.replacement ? "omp, replaced" : "omp";
+  const bool published = pursuit.rating == PursuitOptions::Rating::DenseCoefficient;
+  fits_.curves.push_back({"convergence", published ? replaced + ", publ." : replaced, fit->curve, {}});
   return {};
 }
 
@@ -224,7 +226,7 @@ Result<void> FitsBench::measure_annealing() {
     if (!same && figure.iterations != 30000) continue;
     AnnealingOptions options{.terms = thesis::kTerms, .samples = figure.samples, .seed = options_.seed};
     options.iterations = options_.full ? figure.iterations : kQuickIterations;
-    const std::string sizes = fmt::format("{} samples, {} iterations", options.samples, options.iterations);
+    const std::string sizes = fmt::format("{} x {}", options.samples, options.iterations);
     const bool published = options.iterations == figure.iterations;
     const auto fit =
         add_annealing("annealing", "annealing, published", options,
@@ -242,7 +244,7 @@ Result<void> FitsBench::measure_annealing() {
         .terms = thesis::kTerms, .iterations = iterations, .samples = 0, .keep_best = true, .seed = options_.seed};
     const auto fit = add_annealing("annealing", "annealing", options, figure, "all samples in each step");
     if (!fit) return tl::unexpected(fit.error());
-    fits_.curves.push_back({"annealing", fmt::format("all samples, {} iterations", iterations), fit->curve, {}});
+    fits_.curves.push_back({"annealing", fmt::format("all x {}", iterations), fit->curve, {}});
   }
   return {};
 }

@@ -135,7 +135,9 @@ std::vector<PolynomialPlot> polynomial_plots(const PolynomialFits& fits) {
     plots.push_back({std::move(name), line_chart(chart)});
   };
   const std::string rms = "RMS error, scene units";
-  add("convergence", chart_of(fits, "convergence", step_of, error_of), "Errors by steps (figure 5.7)", "steps", rms);
+  LineChart steps = chart_of(fits, "convergence", step_of, error_of);
+  steps.log_x = true;
+  add("convergence", std::move(steps), "Errors by steps (figure 5.7)", "steps", rms);
   LineChart times = chart_of(fits, "convergence", seconds_of, best_of);
   if (!times.curves.empty()) {
     times.curves.push_back(thesis_mark("thesis, omp", thesis::kPursuit.seconds, thesis::kPursuit.error));
@@ -151,7 +153,7 @@ std::vector<PolynomialPlot> polynomial_plots(const PolynomialFits& fits) {
       marks.points.push_back({static_cast<double>(figure.iterations), figure.error});
     annealing.curves.push_back(std::move(marks));
   }
-  add("annealing", std::move(annealing), "Annealing (figure 5.9)", "iterations", rms);
+  add("annealing", std::move(annealing), "Annealing, samples x iterations (figure 5.9)", "iterations", rms);
   LineChart variation = chart_of(fits, "variation", step_of, error_of);
   for (ChartCurve& curve : variation.curves) {
     curve.marks = true;

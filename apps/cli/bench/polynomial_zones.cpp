@@ -69,8 +69,7 @@ Result<void> add_zones(PolynomialFits& fits, const LensState& lens, const Ghost&
   for (CurvePoint& point : curve) point.error /= pixel_mm, point.best /= pixel_mm;
   if (sampling.along_field)
     fits.curves.push_back(
-        {"zones", fmt::format("{} {}, {} terms", ghost_name(ghost), gaps ? "gaps" : "annealing", options.terms),
-         curve});
+        {"zones", fmt::format("{} {} {}", ghost_name(ghost), gaps ? "gaps" : "annealing", options.terms), curve});
   return {};
 }
 
