@@ -168,6 +168,9 @@ PUBLIC = {
     "expert/plate.h": "plates",
     "expert/polynomial.h": "polynomial",
     "expert/polynomial_method.h": "render/planning",
+    "expert/published_fits.h": "polynomial",
+    "expert/published_pictures.h": "polynomial",
+    "expert/published_samples.h": "polynomial",
 }
 
 # "*renderers" stands for every src/render/<method>, "renderer" for one without a row of its own, "public" for
@@ -186,7 +189,7 @@ MAY_INCLUDE = {
     "drawing": ["ghosts", "image"],
     "diffraction": ["lens", "image"],
     "render/pupils": ["ghosts"],
-    "polynomial": ["render/pupils", "ghosts"],
+    "polynomial": ["render/pupils", "ghosts", "image"],
     "render/radiometry": ["render/pupils", "ghosts", "image"],
     "render/planning": ["render/radiometry", "lens", "ghosts", "image"],
     "renderer": ["render/device", "render/stop_patterns", "render/ray_maps", "render/pupils", "render/planning", "trace", "ghosts",

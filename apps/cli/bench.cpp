@@ -16,6 +16,7 @@ void add_bench(CLI::App& app, Action& action) {
   add_bench_hullin(*bench, action);
   add_bench_flicker(*bench, action);
   add_bench_device(*bench, action);
+  add_bench_polynomial(*bench, action);
 }
 
 }  // namespace contrejour::cli

@@ -71,5 +71,6 @@ void add_bench_lenses(CLI::App& bench, Action& action);
 void add_bench_hullin(CLI::App& bench, Action& action);
 void add_bench_flicker(CLI::App& bench, Action& action);
 void add_bench_device(CLI::App& bench, Action& action);
+void add_bench_polynomial(CLI::App& bench, Action& action);
 
 }  // namespace contrejour::cli

@@ -315,6 +315,34 @@ class LensesBench(ProgramTest):
         self.error_of("bench", "lenses", code=1)
 
 
+class PolynomialBench(ProgramTest):
+    """The published polynomial fits on the thesis's own rays."""
+
+    def test_sparse_fits_and_zones(self):
+        done = self.run_program("bench", "polynomial", "--tables", "algorithms,zones", "--json", "p.json", "--csv",
+                                "p.csv", "--plots", "plots")
+        self.assertIn("thesis error", done.stdout.decode())
+        rows = json.loads((self.folder / "p.json").read_text())["rows"]
+        by_name = {row["fit"]: row for row in rows}
+        dense = by_name["dense, which the others start from"]
+        self.assertEqual(dense["terms"], 1001)
+        self.assertLess(abs(dense["error"] / dense["thesis_error"] - 1), 0.15)  # other random rays
+        for name in ("omp", "omp with replacement", "annealing"):
+            row = by_name[name]
+            self.assertLess(row["error"], row["thesis_error"])
+            self.assertLess(row["seconds"], row["thesis_seconds"])
+            self.assertLess(row["unseen_error"], 1.2 * row["error"])
+        self.assertGreater(by_name["omp, published"]["error"], 1)  # no better than the thesis has it
+        self.assertTrue(any(row["table"] == "zones" and row["terms"] == 5 for row in rows))
+        self.assertEqual(len((self.folder / "p.csv").read_text().splitlines()), 1 + len(rows))
+        plots = sorted(p.name for p in (self.folder / "plots").iterdir())
+        self.assertEqual(plots, ["convergence.svg", "times.svg", "zones.svg"])
+
+    def test_wrong_tables(self):
+        self.error_of("bench", "polynomial", "--tables", "9", code=2)
+        self.error_of("bench", "polynomial", "--tables", "zones", "--lens", "nothing", code=1)
+
+
 class HullinBench(ProgramTest):
     """hullin2011's figures, as small as they still show what they are about."""
 
