@@ -50,13 +50,14 @@ Result<std::vector<Flicker>> measure_all(const FlickerOptions& options) {
 }
 
 std::string flicker_text(const std::vector<Flicker>& all, double error) {
-  TextTable table(
-      {"<system", "<effects", "rendered", "fine", "difference", "of the error", "mean", "pixel", "flux", "fine flux"});
+  TextTable table({"<system", "<effects", "rendered", "fine", "difference", "of the error", "mean", "unclipped",
+                   "pixel", "flux", "fine flux"});
   for (const Flicker& one : all)
     table.add({one.system, one.effects, fmt::format("{:.5f}", one.rendered), fmt::format("{:.5f}", one.fine),
                fmt::format("{:.5f}", one.difference), fmt::format("{:.2f}", one.difference / error),
-               fmt::format("{:.5f}", one.mean_difference), fmt::format("{:.3f}", one.pixel_difference),
-               fmt::format("{:.5f}", one.flux), fmt::format("{:.5f}", one.fine_flux)});
+               fmt::format("{:.5f}", one.mean_difference), fmt::format("{:.5f}", one.unclipped),
+               fmt::format("{:.3f}", one.pixel_difference), fmt::format("{:.5f}", one.flux),
+               fmt::format("{:.5f}", one.fine_flux)});
   return table.text();
 }
 
@@ -71,6 +72,7 @@ Json flicker_json(const std::vector<Flicker>& all, double error) {
                     {"fine", one.fine},
                     {"difference", one.difference},
                     {"mean_difference", one.mean_difference},
+                    {"unclipped", one.unclipped},
                     {"pixel_difference", one.pixel_difference},
                     {"flux", one.flux},
                     {"fine_flux", one.fine_flux}});
@@ -115,9 +117,10 @@ void add_bench_flicker(CLI::App& bench, Action& action) {
       "The figures are second differences in time, f(t + 1) - 2 f(t) + f(t - 1): as the RMS over a frame's pixels,\n"
       "over the peak, the largest of all times; of a single sample; and of a channel's sum, over that sum. \"fine\" "
       "is\n"
-      "the same of frames at --error 0.0001, and \"difference\" that of both frames' difference. The exit code is 1 "
-      "if\n"
-      "a difference exceeds the error asked for.\n\n"
+      "the same of frames at --error 0.0001, and \"difference\" that of both frames' difference. Samples are clipped "
+      "at\n"
+      "the peak, as errors are measured; \"unclipped\" is the difference without that. The exit code is 1 if a\n"
+      "difference exceeds the error asked for.\n\n"
       "The usual size is 320x180.\n\n"
       "Examples:\n"
       "  contrejour bench flicker --frames 40 --systems heliar\n"

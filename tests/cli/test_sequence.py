@@ -4,6 +4,7 @@
 import json
 import math
 import random
+import resource
 import signal
 import subprocess
 import time
@@ -138,6 +139,28 @@ class Sequence(ProgramTest):
         self.assertIn("frame 2: out.0002.exr", done.stderr.decode())
         self.assertTrue((self.folder / "out.0003.exr").is_file())
 
+    def test_a_disk_that_is_full_for_one_frame(self):
+        """A frame whose file is larger than what may be written, as on a full disk; the others are small."""
+        self.write_frames(1, 3)
+        noise = random.Random(3)
+        exr.write(self.folder / "plate.0002.exr",
+                  {c: (exr.HALF, [noise.random() for _ in range(WIDTH * HEIGHT)]) for c in "RGB"}, WIDTH, HEIGHT)
+
+        def with_room_for(size):
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+        command = [PROGRAM, "apply", *LENS, "plate.####.exr", "-o", "out.####.exr", "--keep-going"]
+        self.run_program(*command[1:])
+        sizes = [(self.folder / name).stat().st_size for name in self.outputs()]
+        self.assertLess(max(sizes[0], sizes[2]), 0.9 * sizes[1])
+        for name in self.outputs():
+            (self.folder / name).unlink()
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=60,
+                              preexec_fn=lambda: with_room_for(sizes[1] - 100))
+        self.assertEqual(done.returncode, 1, done.stderr.decode())
+        self.assertIn("frame 2: ", done.stderr.decode())
+        self.assertEqual(self.outputs(), ["out.0001.exr", "out.0003.exr"])
+
     def write_shot(self):
         (self.folder / "lights.toml").write_text(
             '[parameters]\nfnumber = { 1 = 8, 4 = 11 }\n[[light]]\nat = { 1 = [0.4, 0.4], 4 = [0.7, 0.4] }\n'
@@ -205,7 +228,7 @@ class Sequence(ProgramTest):
         self.assertGreater(psnr, 45)
         self.assertLess(drawn, 32)
         _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.7, 0.33], [0.7, 0.33]), sharp=1)
-        self.assertEqual(drawn, 2)
+        self.assertEqual(drawn, 3)
         _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.5, 0.33], [0.7, 0.33]), sharp=1)
         self.assertEqual(drawn, 3)  # the light on its way at once
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -21,6 +22,7 @@ constexpr Vec2 kFirstLight_uv{0.70, 0.33};  // bodonyi2023's light
 constexpr double kHeading_rad = 0.3;        // of the light's motion, along neither rows nor columns
 constexpr double kLightRadius_rad = kSunRadius_rad;
 constexpr double kDust_per_cm2 = 20.0;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kPeakQuantile = 0.999;  // of a frame's samples: the peak that errors are relative to
 
 // The three last frames of one renderer.
@@ -32,8 +34,10 @@ class Film {
   }
   [[nodiscard]] bool is_full() const { return images_.size() == 3; }
   [[nodiscard]] std::size_t samples() const { return images_.front().pixels.size(); }
-  [[nodiscard]] double second_difference(std::size_t k) const {
-    return static_cast<double>(images_[2].pixels[k]) - 2.0 * images_[1].pixels[k] + images_[0].pixels[k];
+  // With samples clipped at a peak, as compare() clips them, or at infinity.
+  [[nodiscard]] double second_difference(std::size_t k, double peak) const {
+    const auto at = [&](std::size_t frame) { return std::clamp<double>(images_[frame].pixels[k], -peak, peak); };
+    return at(2) - 2.0 * at(1) + at(0);
   }
   [[nodiscard]] double peak() const { return quantile_of_samples(images_[1], kPeakQuantile); }
   [[nodiscard]] std::array<double, 3> sum() const {
@@ -54,22 +58,25 @@ double largest_ratio(const std::array<double, 3>& part, const std::array<double,
 
 // Adds the second differences at one time to the figures.
 void add_time(const Film& rendered, const Film& fine, Flicker& flicker, double& squares_over_time) {
-  double own = 0.0, exact = 0.0, between = 0.0, largest = 0.0;
+  double own = 0.0, exact = 0.0, between = 0.0, unclipped = 0.0, largest = 0.0;
   std::array<double, 3> flux{}, fine_flux{};
+  const double peak = fine.peak(), count = static_cast<double>(rendered.samples());
   for (std::size_t k = 0; k < rendered.samples(); ++k) {
-    const double a = rendered.second_difference(k), b = fine.second_difference(k);
+    const double a = rendered.second_difference(k, peak), b = fine.second_difference(k, peak);
     own += a * a;
     exact += b * b;
     between += (a - b) * (a - b);
-    largest = std::max(largest, std::abs(a - b));
-    flux[k % 3] += a;
-    fine_flux[k % 3] += b;
+    const double whole_a = rendered.second_difference(k, kUnlimited), whole_b = fine.second_difference(k, kUnlimited);
+    unclipped += (whole_a - whole_b) * (whole_a - whole_b);
+    largest = std::max(largest, std::abs(whole_a - whole_b));
+    flux[k % 3] += whole_a;
+    fine_flux[k % 3] += whole_b;
   }
-  const double peak = fine.peak(), count = static_cast<double>(rendered.samples());
   const auto rms = [&](double squares) { return std::sqrt(squares / count) / peak; };
   flicker.rendered = std::max(flicker.rendered, rms(own));
   flicker.fine = std::max(flicker.fine, rms(exact));
   flicker.difference = std::max(flicker.difference, rms(between));
+  flicker.unclipped = std::max(flicker.unclipped, rms(unclipped));
   flicker.pixel_difference = std::max(flicker.pixel_difference, largest / peak);
   flicker.flux = std::max(flicker.flux, largest_ratio(flux, fine.sum()));
   flicker.fine_flux = std::max(flicker.fine_flux, largest_ratio(fine_flux, fine.sum()));

@@ -28,13 +28,14 @@ inline constexpr double kStep_px = 0.1;
 struct Flicker {
   std::string system, effects;
   int frames = 0;
-  // Second differences as the RMS over the pixels of a frame, over the peak that errors are relative to: the largest of
-  // all times.
+  // Second differences of samples that are clipped at the peak, as errors are measured (compare() of metrics.h): as the
+  // RMS over the pixels of a frame, over that peak, the largest of all times.
   double rendered = 0.0;  // of the frames
   double fine = 0.0;  // of those at kFineError
   double difference = 0.0;  // of the frames minus those at kFineError
   double mean_difference = 0.0;  // the same, as the RMS over time
-  double pixel_difference = 0.0;  // the largest of a single sample
+  double unclipped = 0.0;  // as `difference`, without clipping: spots brighter than the peak count in full
+  double pixel_difference = 0.0;  // the largest of a single sample, without clipping
   // Second differences of the sum of a channel over that sum: the largest of all times and channels.
   double flux = 0.0, fine_flux = 0.0;
 };

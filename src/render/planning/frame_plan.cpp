@@ -14,6 +14,7 @@
 #include "base/tasks.h"
 #include "render/planning/ghost_selection.h"
 #include "render/planning/kept_dirt.h"
+#include "render/planning/kept_ghost_fluxes.h"
 #include "render/planning/statistics.h"
 #include "render/pupils/direct_meter.h"
 #include "render/radiometry/check_frame.h"
@@ -182,7 +183,9 @@ Result<FramePlan> plan_frame(const FrameRequest& request, const Context& context
   plan.adapts_passes = settings.lambda_nm.empty() && settings.wavelengths == kAutoWavelengths;
   plan.reflectances = kept->reflectances(wavelengths_of(spectra));
   const bool measures = layers != nullptr && needs_flux(*layers);
-  auto selected = select_ghosts(lens, plan.lights, plan.tables, *plan.kept_pupils, settings, measures, quiet);
+  const auto fluxes = cache.section<KeptGhostFluxes>(KeptGhostFluxes::key_of(lens));
+  auto selected =
+      select_ghosts(lens, plan.lights, plan.tables, {*plan.kept_pupils, *fluxes}, settings, measures, quiet);
   if (!selected) return tl::unexpected<Error>(selected.error());
   plan.ghosts = std::move(selected->ghosts);
   plan.adjustments = applied_adjustments(lens, plan.ghosts, settings.ghosts, settings.frame);

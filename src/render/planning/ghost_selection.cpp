@@ -70,10 +70,12 @@ class MeasuredLight {
     return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
   }
   [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& searched, const IrisShape& iris,
-                         const AppliedAdjustment& adjustment, const Frame& frame) const {
+                         const AppliedAdjustment& adjustment, const Frame& frame, KeptGhostFluxes& kept) const {
     Rgb sum{};
-    const std::vector<double> flux =
-        approximate_fluxes_within(request, searched, measured_nm_, iris, visible_mm(frame, adjustment));
+    const Rectangle visible = visible_mm(frame, adjustment);
+    const std::vector<double> flux = kept.get(request, measured_nm_, visible, [&] {
+      return approximate_fluxes_within(request, searched, measured_nm_, iris, visible);
+    });
     for (std::size_t k = 0; k < gain_.size(); ++k)
       for (std::size_t c = 0; c < 3; ++c) sum[c] += gain_[k][c] * flux[k];
     return adjustment.tinted(sum);
@@ -90,8 +92,9 @@ class MeasuredLight {
 class GhostMeasuring {
  public:
   GhostMeasuring(const LensState& lens, std::span<const PlannedLight> lights, const TablesByWavelength& tables,
-                 KeptPupils& pupils, const FrameSettings& settings)
-      : lens_(lens), pupils_(pupils), settings_(settings), steps_(lens, tables), iris_(lens.iris) {
+                 const KeptByGhost& kept, const FrameSettings& settings)
+      : lens_(lens), pupils_(kept.pupils), fluxes_(kept.fluxes), settings_(settings), steps_(lens, tables),
+        iris_(lens.iris) {
     for (const PlannedLight& light : lights) lights_.emplace_back(lens, light);
   }
 
@@ -107,7 +110,7 @@ class GhostMeasuring {
       const std::size_t g = k / lights_.size();
       const PupilRequest request = request_of(k, ghosts[g]);
       GhostPupil searched = pupils_.search_ghost_pupil(request);
-      flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, adjustments[g], settings_.frame);
+      flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, adjustments[g], settings_.frame, fluxes_);
       if (!out.pupils.empty()) out.pupils[k] = std::move(searched);
     });
     if (!done) return interrupted();
@@ -131,6 +134,7 @@ class GhostMeasuring {
 
   const LensState& lens_;
   KeptPupils& pupils_;
+  KeptGhostFluxes& fluxes_;
   const FrameSettings& settings_;
   StepsByWavelength steps_;
   IrisShape iris_;
@@ -218,7 +222,7 @@ struct Selector {
   const LensState& lens;
   std::span<const PlannedLight> lights;
   const TablesByWavelength& tables;
-  KeptPupils& pupils;
+  const KeptByGhost& kept;
   const FrameSettings& settings;
   bool measures;
   const Context& context;
@@ -246,7 +250,7 @@ struct Selector {
   // A choice that did not need the ghosts' fluxes, with them if they are requested.
   [[nodiscard]] Result<GhostChoice> listed(GhostChoice choice) const {
     if (!measures) return choice;
-    const GhostMeasuring measuring(lens, lights, tables, pupils, settings);
+    const GhostMeasuring measuring(lens, lights, tables, kept, settings);
     auto measured = measuring.measure(choice.ghosts, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
     for (const Rgb& fraction : fractions_of(measured->flux)) choice.flux_fractions.push_back(largest(fraction));
@@ -260,7 +264,7 @@ struct Selector {
   template <class Count>
   [[nodiscard]] Result<GhostChoice> by_flux(Count count) const {
     const auto all = in_scope();
-    const GhostMeasuring measuring(lens, lights, tables, pupils, settings);
+    const GhostMeasuring measuring(lens, lights, tables, kept, settings);
     auto measured = measuring.measure(all, context);
     if (!measured) return tl::unexpected<Error>(measured.error());
     const std::vector<Rgb> fraction = fractions_of(measured->flux);
@@ -279,9 +283,9 @@ Result<void> check_selection(const LensState& lens, const GhostSelection& select
 }
 
 Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                  const TablesByWavelength& tables, KeptPupils& pupils, const FrameSettings& settings,
-                                  bool measures, const Context& context) {
-  return std::visit(Selector{lens, lights, tables, pupils, settings, measures, context}, settings.selection);
+                                  const TablesByWavelength& tables, const KeptByGhost& kept,
+                                  const FrameSettings& settings, bool measures, const Context& context) {
+  return std::visit(Selector{lens, lights, tables, kept, settings, measures, context}, settings.selection);
 }
 
 }  // namespace contrejour::inline internal

@@ -9,6 +9,7 @@
 #include "contrejour/context.h"
 #include "contrejour/frame_settings.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/planning/kept_ghost_fluxes.h"
 #include "render/planning/planned_light.h"
 #include "render/pupils/kept_pupils.h"
 
@@ -24,15 +25,21 @@ struct GhostChoice {
   std::vector<double> flux_fractions = {};  // each ghost's of that of all ghosts, if the ghosts were measured
 };
 
+// What a session keeps of each ghost of a lens.
+struct KeptByGhost {
+  pupils::KeptPupils& pupils;
+  KeptGhostFluxes& fluxes;
+};
+
 // Errors: InvalidArgument for a listed ghost that the lens does not have.
 [[nodiscard]] Result<void> check_selection(const LensState& lens, const GhostSelection& selection);
 
 // Ghosts are measured only where their flux decides: SelectBrightest and SelectByFlux. Their flux is what they add to
 // the picture's channels inside the frame, with the lights' values and spectra and the ghosts' adjustments: a ghost is
 // as bright as its largest fraction, in any channel, of the flux of all ghosts. tables: those of the lights'
-// wavelengths. pupils: of this lens. measures: measures the ghosts in any case. Errors: Cancelled.
+// wavelengths. kept: of this lens. measures: measures the ghosts in any case. Errors: Cancelled.
 [[nodiscard]] Result<GhostChoice> select_ghosts(const LensState& lens, std::span<const PlannedLight> lights,
-                                                const TablesByWavelength& tables, pupils::KeptPupils& pupils,
+                                                const TablesByWavelength& tables, const KeptByGhost& kept,
                                                 const FrameSettings& settings, bool measures, const Context& context);
 
 }  // namespace contrejour::inline internal
