@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flares fitted to simulated captures of lenses whose prescriptions say what is right: a program of its own.
-//   flare_fit [LENS] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES]
+//   flare_fit [LENS, or all] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES]
 // Each ghost by itself, as the exact renderer draws it at one angle, is compared with the fitted ghost by itself: its
 // middle over the light's place (speed), its RMS height (size), its flux, and the RMS difference over its bright level.
 // `in picture` is the RMS difference of all ghosts together over the ghost's body, over its bright level, but for a
 // constant: the light scattered everywhere is in the captured pictures, and the flare's veil has it. Only pixels above
-// a part of that level are its body: caustic ghosts have faint skirts far outside what a picture shows. A ghost is
+// a part of that level are its body: caustic ghosts have faint skirts far outside what a picture shows. In the picture,
+// only pixels of the body that show the ghost count: those of which it has more than half of all light, since under a
+// brighter ghost the error is that ghost's. The angle is none of the sweep's, and the truth has no noise. A ghost is
 // listed if a picture can show it: its body lies within the frame and beside the light's masked image, stands out of
 // the noise, and is not buried under brighter ghosts; of those that coincide the brightest stands for all.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -28,11 +31,14 @@ constexpr double kLambda_nm = 550.0;
 constexpr double kPart = 0.45;  // of the range: the angle of the comparison
 constexpr double kCounts = 0.3;  // of a ghost's bright level: what belongs to its body
 constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
+constexpr double kResolution_px = 0.5;  // the RMS size of a point in a picture: sizes are compared with it
 constexpr double kCoincide = 0.03;  // the same of two true ghosts that no picture could tell apart
 constexpr double kBuried = 0.1;  // of what the other ghosts have in its body: a dimmer ghost cannot be made out
+constexpr double kShows = 0.5;  // of all light: pixels where a ghost has less show another one
 constexpr double kNoise = 3.0;  // standard deviations of a dark pixel
 constexpr double kMasked = 0.015;  // of the width, about the light
-constexpr std::size_t kBrightest = 12;
+constexpr std::size_t kBrightest = 12, kSought = 10;
+constexpr double kMostError = 0.1, kMostSpeed_percent = 0.5, kMostSize_percent = 1.0;
 
 // The figures of a ghost, taken from a picture of it alone.
 struct GhostMoments {
@@ -58,6 +64,8 @@ constexpr double kRadians = 0.017453292519943295;
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double grey_at(const Image& picture, std::size_t k) {
   return static_cast<double>(picture.pixels[3 * k] + picture.pixels[3 * k + 1] + picture.pixels[3 * k + 2]);
@@ -123,9 +131,13 @@ Comparison comparison_of(const LensState& lens, const SimulatedCapture& capture,
   return at;
 }
 
-bool coincide(const GhostMoments& a, const GhostMoments& b) {
-  return std::hypot((a.speed - b.speed) / std::max(std::abs(a.speed), 0.5), std::log(a.size / b.size)) < kCoincide;
+// How much two ghosts differ in speed and in the size that a picture shows, relative.
+double difference_of(const GhostMoments& a, const GhostMoments& b) {
+  const auto shown = [](double size) { return std::hypot(size, kResolution_px); };
+  return std::hypot((a.speed - b.speed) / std::max(std::abs(b.speed), 0.5), std::log(shown(a.size) / shown(b.size)));
 }
+
+bool coincide(const GhostMoments& a, const GhostMoments& b) { return difference_of(a, b) < kCoincide; }
 
 // Whether the other ghosts leave it to be made out.
 bool is_buried(const TrueGhost& ghost, const Image& all) {
@@ -189,10 +201,8 @@ const FittedGhost* match_of(const TrueGhost& truth, const std::vector<FittedGhos
   double best_off = kSameGhost;
   for (const FittedGhost& ghost : fitted) {
     if (!(ghost.moments.flux > 0.0)) continue;
-    const double off =
-        std::hypot((ghost.moments.speed - truth.moments.speed) / std::max(std::abs(truth.moments.speed), 0.5),
-                   std::log(ghost.moments.size / truth.moments.size));
-    if (!(off < best_off)) continue;  // also where it is not a number: a ghost smaller than a pixel has no size
+    const double off = difference_of(ghost.moments, truth.moments);
+    if (!(off < best_off)) continue;
     best_off = off;
     best = &ghost;
   }
@@ -208,44 +218,61 @@ double offset_of(const Image& a, const Image& b) {
   return *middle;
 }
 
-// The RMS difference of two pictures, less a constant, over the body of a ghost, over its bright level.
-double nrmse_of(const Image& a, const Image& b, const TrueGhost& ghost, double offset = 0.0) {
-  double sum = 0.0, count = 0.0;
+// The RMS difference of two pictures, less a constant, over the body of a ghost, over its bright level. Only pixels
+// that show the ghost count, if it has more than half of `all` anywhere.
+double nrmse_of(const Image& a, const Image& b, const TrueGhost& ghost, double offset = 0.0,
+                const Image* all = nullptr) {
+  struct Sum {
+    double squares = 0, count = 0;
+  };
+  Sum body, shown;
   for (std::size_t k = 0; 3 * k < a.pixels.size(); ++k) {
-    if (grey_at(ghost.picture, k) < kCounts * ghost.moments.peak) continue;
-    sum += std::pow(grey_at(a, k) - grey_at(b, k) - offset, 2);
-    ++count;
+    const double own = grey_at(ghost.picture, k);
+    if (own < kCounts * ghost.moments.peak) continue;
+    const double square = std::pow(grey_at(a, k) - grey_at(b, k) - offset, 2);
+    body = {body.squares + square, body.count + 1.0};
+    if (all && own > kShows * grey_at(*all, k)) shown = {shown.squares + square, shown.count + 1.0};
   }
-  return count > 0.0 ? std::sqrt(sum / count) / ghost.moments.peak : 0.0;
+  const Sum& sum = shown.count > 0.0 ? shown : body;
+  return sum.count > 0.0 ? std::sqrt(sum.squares / sum.count) / ghost.moments.peak : 0.0;
 }
 
 double percent_off(double fitted, double truth) { return 100.0 * (fitted / truth - 1.0); }
 
-void print_ghosts(const TrueGhosts& ghosts, const MeasuredFlare& flare, const Comparison& at) {
+// How many of a lens's brightest ghosts hold each target.
+struct GhostScore {
+  std::size_t brightest = 0, sought = 0;  // up to 12, up to 10
+  std::size_t found = 0, error = 0, speed = 0, size = 0;
+};
+
+GhostScore print_ghosts(const TrueGhosts& ghosts, const MeasuredFlare& flare, const Comparison& at) {
   const std::vector<FittedGhost> fitted = fitted_ghosts(flare, at);
   const FlareLight light{{at.s, 0.0}, {1.0, 1.0, 1.0}};
   const Image all = render_measured(flare, std::span(&light, 1), at.tangents).value();
   const double offset = offset_of(ghosts.all, all);
-  std::size_t found = 0, below = 0;
-  const std::size_t count = std::min(ghosts.listed.size(), kBrightest);
-  for (std::size_t k = 0; k < count; ++k) {
+  GhostScore score;
+  score.brightest = std::min(ghosts.listed.size(), kBrightest);
+  score.sought = std::min(score.brightest, kSought);
+  for (std::size_t k = 0; k < score.brightest; ++k) {
     const TrueGhost& ghost = ghosts.listed[k];
     const GhostMoments& truth = ghost.moments;
-    const double in_picture = nrmse_of(ghosts.all, all, ghost, offset);
-    if (in_picture < 0.1) ++below;
+    const double in_picture = nrmse_of(ghosts.all, all, ghost, offset, &ghosts.all);
+    if (in_picture < kMostError) ++score.error;
     std::printf("  %2d-%-2d peak %8.2e speed %8.4f size %6.2f px  in picture %5.1f %%", ghost.ghost.i, ghost.ghost.j,
                 truth.peak, truth.speed, truth.size, 100.0 * in_picture);
     if (const FittedGhost* match = match_of(ghost, fitted)) {
       const GhostMoments& fit = match->moments;
-      std::printf("   speed %+6.2f %%  size %+6.2f %%  flux %+6.1f %%  alone %4.1f %%",
-                  percent_off(fit.speed, truth.speed), percent_off(fit.size, truth.size),
+      const double speed = percent_off(fit.speed, truth.speed);
+      const double size = percent_off(std::hypot(fit.size, kResolution_px), std::hypot(truth.size, kResolution_px));
+      std::printf("   speed %+6.2f %%  size %+6.2f %%  flux %+6.1f %%  alone %4.1f %%", speed, size,
                   percent_off(fit.flux, truth.flux), 100.0 * nrmse_of(ghost.picture, match->picture, ghost));
-      if (k < 10) ++found;
+      if (k < kSought) ++score.found;
+      if (std::abs(speed) < kMostSpeed_percent) ++score.speed;
+      if (std::abs(size) < kMostSize_percent) ++score.size;
     }
     std::printf("\n");
   }
-  std::printf("  found %zu of the %zu brightest; below 10 %% in the picture: %zu of %zu\n", found,
-              std::min<std::size_t>(count, 10), below, count);
+  return score;
 }
 
 // Captured, fitted and what is left (red: too dark, blue: too bright), one above the other.
@@ -321,7 +348,7 @@ int run(const std::string& name, const Run& settings) {
       fit_geometry(capture->lights, expected_centre(taken.width / 2, taken.height / 2));
   if (!geometry) return 1;
   const double light = taken.light_rate / 4.0;  // over pixels of half the raw size
-  const double start = seconds_now();
+  const double start = seconds_now(), processor_start = processor_seconds();
   FlareFitOptions options;
   options.pictures = settings.pictures.empty() ? 0 : 8;
   const Result<FittedFlare> fit = fit_flare(sweep_of(*capture, light), *geometry, options);
@@ -330,13 +357,10 @@ int run(const std::string& name, const Run& settings) {
     return 1;
   }
   const Vec2 centre = Vec2{0.25 * taken.width, 0.25 * taken.height} + taken.centre_offset_px * 0.5;
-  std::printf(
-      "%s, %d stations, %d px: %.0f s, %zu ghosts, %.0f image evaluations, NRMSE %.3f, held out %.3f, flux %.3f, "
-      "centre "
-      "off by %.2f, %.2f px (from the light alone %.2f)\n",
-      name.c_str(), settings.stations, capture->pictures[0].rate.width, seconds_now() - start, fit->flare.ghosts.size(),
-      fit->image_evaluations, fit->nrmse, fit->held_out_nrmse, flux_error(*fit), fit->centre_px.x - centre.x,
-      fit->centre_px.y - centre.y, geometry->centre_px.x - centre.x);
+  const double processor = processor_seconds() - processor_start, wall = seconds_now() - start;
+  std::printf("%s, %d stations, %d px: %zu ghosts, %.0f image evaluations, NRMSE %.3f\n", name.c_str(),
+              settings.stations, capture->pictures[0].rate.width, fit->flare.ghosts.size(), fit->image_evaluations,
+              fit->nrmse);
   if (!settings.pictures.empty()) {
     write_pictures(*fit, settings.pictures, name);
     write_fluxes(*fit, settings.pictures + "/" + name + "-flux.csv");
@@ -345,7 +369,11 @@ int run(const std::string& name, const Run& settings) {
     std::ofstream(settings.pictures + "/" + name + ".flare.toml") << write_flare(named);
   }
   const Comparison at = comparison_of(lens, *capture, light);
-  print_ghosts(true_ghosts(drawn_ghosts(lens, at.frame, at.s, kept), at), fit->flare, at);
+  const GhostScore score = print_ghosts(true_ghosts(drawn_ghosts(lens, at.frame, at.s, kept), at), fit->flare, at);
+  std::printf("| %-12s | %5.1f %% | %5.2f %% | %zu of %zu | %zu of %zu | %zu, %zu | %.2f, %.2f | %.0f | %.0f |\n",
+              name.c_str(), 100.0 * fit->held_out_nrmse, 100.0 * flux_error(*fit), score.found, score.sought,
+              score.error, score.brightest, score.speed, score.size, fit->centre_px.x - centre.x,
+              fit->centre_px.y - centre.y, processor, wall);
   return 0;
 }
 
@@ -357,7 +385,8 @@ int main(int argc, char** argv) {
   if (argc > 3) settings.raw_width = std::stoi(argv[3]);
   if (argc > 4) settings.kept = argv[4];
   if (argc > 5) settings.pictures = argv[5];
-  if (argc > 1) return run(argv[1], settings);
+  if (argc > 1 && std::string(argv[1]) != "all") return run(argv[1], settings);
+  std::printf("| Lens | Held out | Flux | Found | Error below 10 %% | Speed, size | Centre, px | CPU s | s |\n");
   int failed = 0;
   for (const char* lens : {"heliar", "tessar", "planar-50", "distagon-25", "nikon-80-200"})
     failed += run(lens, settings);

@@ -35,6 +35,22 @@ MeasuredFlare random_flare_with_profiles(int ghosts) {
 
 constexpr TangentFrame kFrame{240, 160, 220.0, {118.3, 82.1}};
 
+// The mean of a ghost's shade over the pixel about a place: over 4 x 4 squares if the ghost is small.
+ShadeWeights plain_weights(const GhostAtAngle& at, Vec2 along, Vec2 place, double pixel) {
+  const bool is_small = std::min(0.5 * (at.outline.left + at.outline.right), at.outline.half_height) < 1.5 * pixel;
+  const int across = is_small ? 4 : 1;
+  ShadeWeights mean{};
+  for (int k = 0; k < across * across; ++k) {
+    const Vec2 square{((k % across + 0.5) / across - 0.5) * pixel, ((k / across + 0.5) / across - 0.5) * pixel};
+    const Vec2 point = place + square;
+    const double distance = nearest_point(at.outline, {dot(along, point), cross(along, point)}).distance;
+    const ShadeWeights weights = shade_weights(at.shade, distance, pixel / across);
+    mean.border += weights.border / (across * across);
+    mean.inside += weights.inside / (across * across);
+  }
+  return mean;
+}
+
 // The same picture, one pixel after the other in double precision.
 Image plain_picture(const MeasuredFlare& flare, const FlareLight& light, const TangentFrame& frame) {
   Image image(frame.width, frame.height);
@@ -47,7 +63,7 @@ Image plain_picture(const MeasuredFlare& flare, const FlareLight& light, const T
       for (int x = 0; x < frame.width; ++x) {
         const Vec2 point{(x + 0.5 - frame.centre_px.x) * pixel, (frame.centre_px.y - y - 0.5) * pixel};
         const Vec2 turned{dot(along, point), cross(along, point)};
-        const ShadeWeights weights = shade_weights(at->shade, nearest_point(at->outline, turned).distance, pixel);
+        const ShadeWeights weights = plain_weights(*at, along, point, pixel);
         const Rgb inside = at->inside_at(turned);
         for (std::size_t c = 0; c < 3; ++c) {
           const double level = at->border[c] * weights.border + inside[c] * weights.inside;
@@ -208,6 +224,28 @@ TEST_CASE("measured flare: a disc of level 1 sums to its area, at any resolution
     REQUIRE(image.has_value());
     const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
     CHECK(sum == doctest::Approx(std::numbers::pi * 0.01).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("measured flare: a disc smaller than a pixel sums to its area wherever it lies in the pixel") {
+  const double radius_px = 0.4, pixel = 1.0 / kFrame.focal_length_px;
+  MeasuredGhost ghost;
+  ghost.centre.coefficients = {1.0};
+  ghost.half_width.coefficients = ghost.half_height.coefficients = {radius_px * pixel};
+  ghost.width_in.coefficients = ghost.width_out.coefficients = {0.02 * pixel};
+  for (AngleCurve& level : ghost.inside) level.coefficients = {1.0};
+  for (AngleCurve& level : ghost.border) level.coefficients = {1.0};
+  ghost.last = 0.5;
+  const MeasuredFlare flare{"point", "", 0.5, std::nullopt, {ghost}};
+  const double area = std::numbers::pi * std::pow((radius_px + 0.02) * pixel, 2);
+  for (const double x : {0.0, 0.17, 0.31, 0.5, 0.83}) {
+    for (const double y : {0.0, 0.25, 0.61}) {
+      const FlareLight light{{(30.0 + x) * pixel, (20.0 + y) * pixel}, {1.0, 1.0, 1.0}};
+      const auto image = render_measured(flare, std::span(&light, 1), kFrame);
+      REQUIRE(image.has_value());
+      const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
+      CHECK(sum == doctest::Approx(area).epsilon(0.05));
+    }
   }
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("small ghosts: a fit finds two spots, and their speeds, sizes and leve
       CHECK(sum == doctest::Approx(expected).epsilon(0.1));
       CHECK(ghost.half_height(s) * kSpotFocalLength_px == doctest::Approx(radius_px).epsilon(0.2));
     }
-    CHECK(is_found);
+    CHECK_MESSAGE(is_found, write_flare(fit->flare));
   }
   options.max_small_ghosts = 0;
   const auto without = fit_flare(sweep_of_spots(flare_with_spots(), kSpotNoise), geometry, options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "base/tasks.h"
@@ -13,17 +14,20 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr int kSpokes = 14;             // places around a circle where the step is measured
-constexpr double kOverCircle = 0.3;     // the quantile of the steps around the circle
+constexpr double kOverCircle = 0.4;     // the quantile of the steps around the circle
 constexpr double kVisibleSpokes = 0.4;  // of all, for a station to count
-constexpr double kUnclear = 3.0;  // times the floor: pixels with a larger error are not searched
+constexpr double kModelPart = 0.1;  // of a pixel's value: what counts as an error
 constexpr int kRefinements = 24;
-constexpr double kUnclearPart = 0.15;
+constexpr std::size_t kRefined = 24;  // candidates
 constexpr double kRadiusRatio = 1.06;
 constexpr std::size_t kMaxPictures = 16;
 constexpr double kLightSpeed_px = 4.0;  // ghosts that stay so near the light's image cannot be told from its halo
-constexpr double kMinRadius_px = 1.5, kMaxRadius = 0.75;  // of the picture's width
-constexpr std::array<double, 2> kStepHalf_px{1.5, 4.0};  // from the circle to where values are taken
-constexpr double kSameSpeed_px = 2.0, kSameRadius = 0.06;  // discs nearer than these are the same
+constexpr double kMinRadius_px = 3.0, kMaxRadius = 0.75;  // smaller ones are sought as spots; of the width
+// From the circle to where values are taken. The wider step finds soft borders, and does not say well where a sharp one
+// is: it counts for less.
+constexpr std::array<double, 2> kStepHalf_px{1.5, 4.0};
+constexpr double kWideCounts = 0.8;
+constexpr double kSameSpeed_px = 2.0, kSameRadius = 0.08;  // discs nearer than these, where both are, are the same
 
 struct Spokes {
   std::array<double, kSpokes> x{}, y{};
@@ -90,7 +94,8 @@ Disc disc_contrast(std::span<const SearchPicture> pictures, const Spokes& all, c
                                       std::max(start_px * (1.0 + candidate.growth * s2), kMinRadius_px), half_px);
       if (!std::isnan(step)) steps.push_back({s, step});
     }
-    const StationsContrast of_all = contrast_over_stations(steps);
+    StationsContrast of_all = contrast_over_stations(steps);
+    if (half_px != kStepHalf_px.front()) of_all.contrast *= kWideCounts;
     if (half_px == kStepHalf_px.front() || of_all.contrast > best.contrast) best = of_all;
   }
   Disc disc{candidate, best.signed_contrast};
@@ -132,9 +137,30 @@ std::vector<double> radii_px(double width) {
   return radii;
 }
 
-bool is_same(const FoundGhost& a, const FoundGhost& b, double max_distance_px, double focal_length_px) {
-  return std::abs(a.speed - b.speed) * max_distance_px < kSameSpeed_px &&
-         std::abs(a.radius - b.radius) < std::max(kSameRadius * b.radius, 1.5 / focal_length_px);
+// Whether two discs are at one place with one size at the end of the range where both are.
+bool is_same(const FoundGhost& a, const FoundGhost& b, double focal_length_px) {
+  const double s = std::min(a.last, b.last), s2 = s * s;
+  const double off_px = std::abs(a.speed + a.bend * s2 - b.speed - b.bend * s2) * s * focal_length_px;
+  const double radius = b.radius * (1.0 + b.growth * s2), other = a.radius * (1.0 + a.growth * s2);
+  return off_px < std::max(kSameSpeed_px, kSameRadius * radius * focal_length_px) &&
+         std::abs(other - radius) < std::max(kSameRadius * radius, 1.5 / focal_length_px);
+}
+
+// The best of the strongest candidates once each is refined, which the grid of speeds and radii may have ranked
+// otherwise. Refined candidates that are known do not count: a coarse one beside them leads to them again.
+template <class Refine>
+FoundGhost best_refined(std::vector<FoundGhost> candidates, std::span<const FoundGhost> excluded, const Refine& refine,
+                        double focal_length_px) {
+  std::ranges::stable_sort(candidates, std::greater(), &FoundGhost::contrast);
+  candidates.resize(std::min(candidates.size(), kRefined));
+  FoundGhost best;
+  for (const FoundGhost& candidate : candidates) {
+    const FoundGhost next = refine(candidate);
+    const bool known =
+        std::ranges::any_of(excluded, [&](const FoundGhost& other) { return is_same(next, other, focal_length_px); });
+    if (!known && next.contrast > best.contrast) best = next;
+  }
+  return best;
 }
 
 // Evenly spaced ones of all pictures.
@@ -145,11 +171,12 @@ std::vector<SearchPicture> few_of(std::span<const SearchPicture> pictures) {
   return few;
 }
 
-// Whether a pixel is known well enough to be searched: to a few times the floor, or to a part of its value.
-bool is_clear(float rate, float weight, double floor) {
-  if (weight == 0.0F) return false;
-  const double error = 1.0 / std::sqrt(static_cast<double>(weight));
-  return error < kUnclear * floor || error < kUnclearPart * std::abs(static_cast<double>(rate));
+// The residual of a pixel as a step on a scale on which errors are 1 everywhere: linear below the floor over
+// kModelPart, logarithmic above. deviation: of the pixel, of which a part of its whole value is a part.
+double stabilised(double residual, double deviation, double floor) {
+  const double whole = std::max(residual, std::sqrt(std::max(deviation * deviation - floor * floor, 0.0)) / kModelPart);
+  const auto scaled = [floor](double v) { return std::asinh(kModelPart * v / floor) / kModelPart; };
+  return scaled(whole) - scaled(whole - residual);
 }
 
 // The discs of one speed: the best that is not excluded, and what all of them show.
@@ -172,9 +199,8 @@ OfSpeed discs_of_speed(std::span<const SearchPicture> pictures, const Spokes& al
     candidate.radius = radius_px / focal_length_px;
     const Disc disc = disc_contrast(pictures, all, candidate);
     one.contrasts.push_back(disc.signed_contrast);
-    const bool known = std::ranges::any_of(excluded, [&](const FoundGhost& other) {
-      return is_same(disc.found, other, max_distance_px, focal_length_px);
-    });
+    const bool known = std::ranges::any_of(
+        excluded, [&](const FoundGhost& other) { return is_same(disc.found, other, focal_length_px); });
     if (!known && disc.found.contrast > one.best.contrast) one.best = disc.found;
   }
   return one;
@@ -187,13 +213,16 @@ std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations,
   for (const FitStation& station : stations) {
     SearchPicture picture{station.s, station.frame, Image(station.rate.width, station.rate.height, 1)};
     for (std::size_t k = 0; k < picture.value.pixels.size(); ++k) {
-      double sum = 0.0;
+      double sum = 0.0, variance = 0.0;
       bool usable = true;
       for (std::size_t c = 0; c < 3; ++c) {
-        sum += static_cast<double>(station.rate.pixels[3 * k + c]);
-        usable = usable && is_clear(station.rate.pixels[3 * k + c], station.weight.pixels[3 * k + c], floor);
+        const auto weight = static_cast<double>(station.weight.pixels[3 * k + c]);
+        usable = usable && weight > 0.0;
+        sum += static_cast<double>(station.rate.pixels[3 * k + c]) / 3.0;
+        if (usable) variance += 1.0 / (3.0 * weight);
       }
-      picture.value.pixels[k] = usable ? static_cast<float>(std::asinh(sum / (3.0 * floor))) : std::nanf("");
+      picture.value.pixels[k] =
+          usable ? static_cast<float>(stabilised(sum, std::sqrt(variance), floor)) : std::nanf("");
     }
     pictures.push_back(std::move(picture));
   }
@@ -213,7 +242,7 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
   const std::vector<double> radii = radii_px(frame.width);
   const Spokes all = spokes();
   std::vector<double> contrasts;
-  FoundGhost best;
+  std::vector<FoundGhost> candidates;  // the best of each speed
   const bool done = ordered_pipeline(
       static_cast<std::size_t>(2 * half + 1), context,
       [&](std::size_t k) {
@@ -221,11 +250,14 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
       },
       [&](std::size_t /*k*/, const OfSpeed& one) {
         contrasts.insert(contrasts.end(), one.contrasts.begin(), one.contrasts.end());
-        if (one.best.contrast > best.contrast) best = one.best;
+        if (one.best.contrast > 0.0) candidates.push_back(one.best);
       });
   if (!done) return std::nullopt;
+  FoundGhost best = best_refined(
+      std::move(candidates), excluded,
+      [&](const FoundGhost& candidate) { return refined(all_pictures, all, candidate, max_distance_px); },
+      frame.focal_length_px);
   if (!(best.contrast > 0.0)) return std::nullopt;
-  best = refined(all_pictures, all, best, max_distance_px);
   best.contrast *= std::sqrt(static_cast<double>(pictures.size()) / static_cast<double>(all_pictures.size()));
   best.contrast /= std::max(usual_contrast(std::move(contrasts)), 1e-6);
   if (best.contrast < search.min_contrast) return std::nullopt;

@@ -16,14 +16,15 @@
 
 namespace contrejour::inline internal {
 
-// One picture to search: logarithms of brightness above a floor, so that steps of dim ghosts count as those of bright
-// ones; NaN where nothing was measured.
+// One picture to search, in standard deviations: proportional to brightness where the floor decides, to its logarithm
+// where a part of the brightness does, so that steps of dim ghosts count as those of bright ones; NaN where nothing was
+// measured.
 struct SearchPicture {
   double s = 0;
   StationFrame frame;
   Image value;  // one channel
 };
-// floor: the brightness from which values are compared by their ratios.
+// floor: the usual standard deviation.
 [[nodiscard]] std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor);
 
 struct GhostSearch {

@@ -8,21 +8,26 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kOverStations = 0.2;  // the quantile of the steps
+constexpr double kMostAgainst = 1.0;  // of a station that contradicts: something brighter may lie beside the ghost
 constexpr std::size_t kMinStations = 5;
+constexpr double kMinRange = 0.33;  // of all stations: near the axis alone, halo and ghosts cannot be told apart
+
+// A step's evidence: proportional to small ones, to the logarithm of large ones, so that a few stations where something
+// else is there do not count for more than all others.
+double evidence(double step) { return std::max(std::asinh(step), -kMostAgainst); }
 
 }  // namespace
 
 StationsContrast contrast_over_stations(std::vector<StationStep>& steps) {
   StationsContrast best;
   std::ranges::sort(steps, {}, &StationStep::s);
-  std::vector<double> sorted;
+  const double least = kMinRange * static_cast<double>(steps.size());
+  double sum = 0.0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    sorted.insert(std::ranges::upper_bound(sorted, steps[k].step), steps[k].step);
+    sum += evidence(steps[k].step);
     const std::size_t count = k + 1;
-    if (count < kMinStations) continue;
-    const double low = sorted[static_cast<std::size_t>(kOverStations * static_cast<double>(count))];
-    const double contrast = low * std::sqrt(static_cast<double>(count));
+    if (count < kMinStations || static_cast<double>(count) < least) continue;
+    const double contrast = sum / std::sqrt(static_cast<double>(count));
     best.signed_contrast = contrast;
     if (contrast > best.contrast) {
       best.contrast = contrast;

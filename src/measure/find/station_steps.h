@@ -7,7 +7,7 @@
 
 namespace contrejour::inline internal {
 
-// A step of brightness at one station, in any unit.
+// A step of brightness at one station, in standard deviations.
 struct StationStep {
   double s = 0, step = 0;
 };
@@ -18,7 +18,8 @@ struct StationsContrast {
   double first = 0, last = 0;  // the range's tangents
 };
 
-// The best range of stations from the axis outwards: a low quantile of their steps, times the root of their number.
+// The best range of stations from the axis outwards: the sum of the evidence of their steps over the root of their
+// number. A ghost that the halo, the mask or a brighter ghost hides at some stations loses their part only.
 [[nodiscard]] StationsContrast contrast_over_stations(std::vector<StationStep>& steps);
 
 // The spread of what the pictures show where there is nothing: of all candidates, nearly all of which are nothing.

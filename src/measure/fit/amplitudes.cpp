@@ -199,8 +199,11 @@ Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& rig
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   scaled.diagonal().array() = 1.0 + kRidge;
-  return scale.cwiseProduct(
-      scaled.selfadjointView<Eigen::Lower>().ldlt().solve(Eigen::VectorXd(scale.cwiseProduct(right))));
+  const Eigen::VectorXd scaled_right = scale.cwiseProduct(right);
+  const Eigen::LLT<Eigen::MatrixXd> fast(
+      scaled);  // in blocks; LDLT, which is not, for what the ridge leaves indefinite
+  if (fast.info() == Eigen::Success) return scale.cwiseProduct(Eigen::VectorXd(fast.solve(scaled_right)));
+  return scale.cwiseProduct(Eigen::VectorXd(scaled.selfadjointView<Eigen::Lower>().ldlt().solve(scaled_right)));
 }
 
 AngleCurve curve_of(const Level& level, const Eigen::VectorXd& solution, double s_max) {

@@ -23,7 +23,7 @@ namespace contrejour {
 namespace {
 
 constexpr double kHaloQuantile = 0.35, kMedian = 0.5;
-constexpr int kLastIterations = 25;
+constexpr int kLastIterations = 12;
 constexpr std::size_t kTogetherEvery = 3;  // ghosts, after which all are fitted together
 constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
 constexpr std::size_t kFewestToHoldOut = 10;  // stations in all, from which on some are held out
@@ -191,9 +191,9 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
     fit.result.warnings.emplace_back(
         "the light moves to the left as the angle grows: the angles' sign is swapped in the list");
   }
-  find_small_ghosts(fit, (options.max_small_ghosts + 1) / 2);
+  find_small_ghosts(fit, (options.max_small_ghosts + 2) / 3);
   find_all(fit);
-  find_small_ghosts(fit, options.max_small_ghosts);
+  find_small_ghosts(fit, (2 * options.max_small_ghosts + 2) / 3);  // the others: in what profiles leave
   if (fit.result.found.empty() && fit.small.empty())
     fit.result.warnings.emplace_back("no ghost was found: the pictures show none that stands out");
   if (context.progress) context.progress(0.5);

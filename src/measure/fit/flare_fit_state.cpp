@@ -19,10 +19,11 @@ constexpr double kConverged = 2e-4;
 // The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
 // would stand for the background, or for a bright rim. A small ghost's window has no background left.
 constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6;
-// The least half axis of a small ghost: the mean over a pixel's width holds for borders that are straight over it.
-constexpr double kLeastHalfAxis_px = 0.6;
+// The least half axis of a small ghost: four squares across a pixel describe no smaller one.
+constexpr double kLeastHalfAxis_px = 0.25;
 constexpr double kCutPart = 0.5;  // of a cut ghost's radius: how far each of its coefficients may move in one fit
-constexpr double kNearPart = 0.35;  // of its radius: how far a small ghost may move in one fit, beside a pixel
+// Of its radius: how far a small ghost, and a disc that is fitted by itself, may move in one fit, beside a pixel.
+constexpr double kNearPart = 0.35, kNearPartOfDisc = 0.15;
 
 Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
   Eigen::VectorXd all(from.size() + 1);
@@ -30,8 +31,39 @@ Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
   return all;
 }
 
-// A small ghost stays near its start, because its window shows parts of others, too.
-void keep_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
+// Coefficients beyond the first: by how much a ghost may leave the disc that moves evenly. Without bounds, one that
+// stands for light of another kind takes any shape at angles where little holds it.
+constexpr double kBend = 0.2, kBendOfRadius = 0.5;  // of the way that the centre moves, and of the radius
+constexpr double kGrowth = 0.5, kSkew = 0.4;        // of the radius
+constexpr double kRoundnessChange = 0.15, kFadeChange = 0.3;  // the latter of the radius
+
+// A ghost changes smoothly and by parts of its own size.
+void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
+  constexpr std::size_t kBounded = 8;  // of curves_of(): place, shape and widths of fades
+  const MeasuredGhost& g = problem.flare.ghosts[ghost];
+  const double radius = g.half_height(0.0);
+  const double path = std::abs(g.centre.coefficients.front()) * problem.flare.s_max;
+  const std::array<double, kBounded> most{kBend * path + kBendOfRadius * radius,
+                                          kGrowth * radius,
+                                          kSkew * radius,
+                                          kGrowth * radius,
+                                          kRoundnessChange,
+                                          kRoundnessChange,
+                                          kFadeChange * radius,
+                                          kFadeChange * radius};
+  for (std::size_t curve = 0; curve < kBounded; ++curve) {
+    const ParameterLayout::CurveTerms terms = problem.layout.curve_terms(ghost, curve, 0.0);
+    const bool is_skew = curve == 2 || curve == 5;
+    for (std::size_t k = is_skew ? 0 : 1; k < terms.terms.size(); ++k) {
+      const Eigen::Index at = terms.first + static_cast<Eigen::Index>(k);
+      squares.lower[at] = std::max(squares.lower[at], -most[curve]);
+      squares.upper[at] = std::min(squares.upper[at], most[curve]);
+    }
+  }
+}
+
+// A ghost that is fitted in a window stays near its start, because the window shows parts of others, too.
+void keep_near(const FlareProblem& problem, std::size_t ghost, double part, LeastSquaresProblem& squares) {
   constexpr std::array<std::size_t, 4> kShape{0, 1, 2, 3};  // of curves_of(): centre, half width, skew, half height
   const double pixel = 1.0 / problem.stations.front().frame.pixels.focal_length_px;
   const Eigen::VectorXd start = problem.layout.pack(problem.flare);
@@ -41,11 +73,11 @@ void keep_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresProbl
     const bool is_size = curve == 1 || curve == 3;
     for (std::size_t k = 0; k < terms.terms.size(); ++k) {
       const Eigen::Index at = terms.first + static_cast<Eigen::Index>(k);
-      const double most = curve == 0 ? pixel + kNearPart * radius : kNearPart * radius;
+      const double most = curve == 0 ? pixel + part * radius : part * radius;
       squares.lower[at] = start[at] - most;
       squares.upper[at] = start[at] + most;
       if (is_size && k == 0) squares.lower[at] = std::max(squares.lower[at], kLeastHalfAxis_px * pixel);
-      if (is_size && k == 0) squares.upper[at] = std::max(squares.upper[at], squares.lower[at]);
+      squares.upper[at] = std::max(squares.upper[at], squares.lower[at]);
     }
   }
 }
@@ -65,8 +97,9 @@ void keep_cut_near(const FlareProblem& problem, std::size_t ghost, LeastSquaresP
 }
 
 // Bounds of fades and of small ghosts' sizes, relative to the picture's pixels.
-void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& squares) {
-  constexpr std::size_t kWidthIn = 6, kWidthOut = 7;  // of curves_of()
+void limit_shape(const FlareProblem& problem, const LevelSettings& settings, LeastSquaresProblem& squares) {
+  const bool small = settings.small;
+  constexpr std::size_t kHalfWidth = 1, kHalfHeight = 3, kWidthIn = 6, kWidthOut = 7;  // of curves_of()
   const double pixel = 1.0 / problem.stations.front().frame.pixels.focal_length_px;
   for (std::size_t k = 0; k < problem.flare.ghosts.size(); ++k) {
     const MeasuredGhost& ghost = problem.flare.ghosts[k];
@@ -74,8 +107,14 @@ void limit_shape(const FlareProblem& problem, bool small, LeastSquaresProblem& s
     const double half_width = ghost.half_width(0.0);
     squares.upper[constant_of(kWidthIn)] = std::max(2.0 * pixel, 0.5 * half_width);
     const double widest = kWidestFade_px * pixel + kWidestFade * std::abs(ghost.centre.coefficients.front());
-    squares.upper[constant_of(kWidthOut)] = small ? std::max(widest, kWidestOfSmall * half_width) : widest;
-    if (small) keep_near(problem, k, squares);
+    const double now = ghost.width_out(0.0);  // a small ghost that has become one of all keeps its fade
+    squares.upper[constant_of(kWidthOut)] =
+        std::max(now, small ? std::max(widest, kWidestOfSmall * half_width) : widest);
+    for (const std::size_t axis : {kHalfWidth, kHalfHeight})
+      squares.lower[constant_of(axis)] = std::max(squares.lower[constant_of(axis)], kLeastHalfAxis_px * pixel);
+    keep_plausible(problem, k, squares);
+    if (small) keep_near(problem, k, kNearPart, squares);
+    if (settings.near_start) keep_near(problem, k, kNearPartOfDisc, squares);
     if (!ghost.clip_radius.coefficients.empty()) keep_cut_near(problem, k, squares);
   }
 }
@@ -178,7 +217,7 @@ LevelFit optimised(FlareFit& fit, const std::vector<FitStation>& stations, const
                               },
                               problem.layout.lower(), problem.layout.upper()};
   Eigen::VectorXd start = problem.layout.pack(flare);
-  limit_shape(problem, settings.small, squares);
+  limit_shape(problem, settings, squares);
   if (settings.with_centre) {
     start = with_last(start, 0.0);
     squares.lower = with_last(squares.lower, -kMostShift);

@@ -60,6 +60,7 @@ struct LevelSettings {
   int iterations = 25;
   bool with_centre = false;
   bool small = false;  // small ghosts may fade over their whole radius
+  bool near_start = false;  // ghosts stay within a part of their radius of the start
 };
 struct LevelFit {
   MeasuredFlare flare;

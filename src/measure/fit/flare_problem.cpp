@@ -62,6 +62,9 @@ std::vector<double> model_of(const std::vector<GhostInStation>& ghosts, const Fi
         model[kChannels * pixel.index + c] += area * level;
       }
     }
+    for (const InnerPixel& pixel : ghost.pixels.inner) {
+      for (std::size_t c = 0; c < kChannels; ++c) model[kChannels * pixel.index + c] += area * pixel.inside[c];
+    }
     for (const std::uint32_t index : ghost.pixels.flat) {
       for (std::size_t c = 0; c < kChannels; ++c) model[kChannels * index + c] += area * ghost.at.inside[c];
     }
@@ -108,30 +111,29 @@ CurveGradient gradient_of(const GhostInStation& ghost, const GhostPixel& pixel, 
   return gradient;
 }
 
-// A ghost at a pixel; without derivatives of its shape where its shade is flat.
+// A ghost at a pixel: near its border, inside with a profile, or (neither) where its shade is flat.
 struct GhostAtPixel {
   std::size_t ghost = 0;  // of the station's
   const GhostPixel* near_border = nullptr;
+  const InnerPixel* inner = nullptr;
 };
 
-// The derivatives of a ghost at a pixel: all of them, or that of the inside's level alone.
+// The derivatives of a ghost at a pixel with respect to some of its curves, which follow one another.
 struct PixelTerm {
-  Eigen::Index first = 0;   // the ghost's first row in the equations
-  Eigen::Index inside = 0;  // the row of the inside's level
-  bool flat = false;
-  double by_inside = 0;
-  CurveGradient gradient;  // unset where flat
+  Eigen::Index first = 0;  // their first row in the equations
+  Eigen::Index size = 0;
+  CurveGradient gradient;  // its first `size` values
 };
 
 void add_pair(const PixelTerm& a, const PixelTerm& b, double w, Eigen::MatrixXd& hessian) {
-  if (a.flat && b.flat) {
-    hessian(a.inside, b.inside) += w * a.by_inside * b.by_inside;
-  } else if (a.flat) {
-    hessian.row(a.inside).segment<kCurves>(b.first) += w * a.by_inside * b.gradient.transpose();
-  } else if (b.flat) {
-    hessian.col(b.inside).segment<kCurves>(a.first) += w * b.by_inside * a.gradient;
-  } else {
+  if (a.size == kCurves && b.size == kCurves) {
     hessian.block<kCurves, kCurves>(a.first, b.first) += w * a.gradient * b.gradient.transpose();
+    return;
+  }
+  for (Eigen::Index column = 0; column < b.size; ++column) {
+    const double weighted = w * b.gradient[column];
+    for (Eigen::Index row = 0; row < a.size; ++row)
+      hessian(a.first + row, b.first + column) += weighted * a.gradient[row];
   }
 }
 
@@ -139,20 +141,25 @@ PixelTerm term_of(const std::vector<GhostInStation>& ghosts, const GhostAtPixel&
   const GhostInStation& ghost = ghosts[at.ghost];
   PixelTerm term;
   term.first = kCurves * static_cast<Eigen::Index>(at.ghost);
-  term.inside = term.first + static_cast<Eigen::Index>(kShapeCurves + kChannels + channel);
-  term.flat = at.near_border == nullptr;
-  term.by_inside = area * ghost.at.presence;
-  if (!term.flat) term.gradient = gradient_of(ghost, *at.near_border, channel, area);
+  if (at.near_border) {
+    term.size = kCurves;
+    term.gradient = gradient_of(ghost, *at.near_border, channel, area);
+  } else if (at.inner) {
+    term.size = kPlaceCurves;
+    for (std::size_t k = 0; k < kPlaceCurves; ++k)
+      term.gradient[static_cast<Eigen::Index>(k)] = area * at.inner->inside_by_shape[k][channel];
+  } else {
+    term.first += static_cast<Eigen::Index>(kShapeCurves + kChannels + channel);
+    term.size = 1;
+    term.gradient[0] = area * ghost.at.presence;
+  }
   return term;
 }
 
 void add_terms(const std::vector<PixelTerm>& terms, double w, double difference, NormalEquations& equations) {
   for (std::size_t a = 0; a < terms.size(); ++a) {
-    if (terms[a].flat) {
-      equations.gradient[terms[a].inside] += w * difference * terms[a].by_inside;
-    } else {
-      equations.gradient.segment<kCurves>(terms[a].first) += w * difference * terms[a].gradient;
-    }
+    for (Eigen::Index k = 0; k < terms[a].size; ++k)
+      equations.gradient[terms[a].first + k] += w * difference * terms[a].gradient[k];
     for (std::size_t b = a; b < terms.size(); ++b) add_pair(terms[a], terms[b], w, equations.hessian);
   }
 }
@@ -160,8 +167,9 @@ void add_terms(const std::vector<PixelTerm>& terms, double w, double difference,
 std::vector<std::vector<GhostAtPixel>> ghosts_at_pixels(const std::vector<GhostInStation>& ghosts, std::size_t pixels) {
   std::vector<std::vector<GhostAtPixel>> at_pixel(pixels);
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    for (const GhostPixel& pixel : ghosts[g].pixels.near_border) at_pixel[pixel.index].push_back({g, &pixel});
-    for (const std::uint32_t index : ghosts[g].pixels.flat) at_pixel[index].push_back({g, nullptr});
+    for (const GhostPixel& pixel : ghosts[g].pixels.near_border) at_pixel[pixel.index].push_back({g, &pixel, nullptr});
+    for (const InnerPixel& pixel : ghosts[g].pixels.inner) at_pixel[pixel.index].push_back({g, nullptr, &pixel});
+    for (const std::uint32_t index : ghosts[g].pixels.flat) at_pixel[index].push_back({g, nullptr, nullptr});
   }
   return at_pixel;
 }

@@ -6,6 +6,7 @@
 
 #include "measure/model/flare_curves.h"
 #include "measure/model/outline_cubic.h"
+#include "measure/model/pixel_samples.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -48,7 +49,8 @@ std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, co
 }
 
 // A pixel of a ghost with a profile: the level there, and how it changes as the ghost moves and grows.
-void add_profile(const GhostAtAngle& ghost, Vec2 point, bool with_derivatives, GhostPixel& pixel) {
+template <class Pixel>
+void add_profile(const GhostAtAngle& ghost, Vec2 point, bool with_derivatives, Pixel& pixel) {
   pixel.inside = ghost.inside_at(point);
   if (!with_derivatives) return;
   const ProfileWeights weights = profile_weights(ghost.outline, point);
@@ -76,15 +78,44 @@ struct PlacedShape {
   Vec2 along;        // to the light, in pixels, y down
   double pixel = 0;  // its width as a tangent
   double reach_out = 0, reach_in = 0;  // distances beyond which the shade is constant over a pixel
+  int across = 1;  // squares that each side of a pixel is divided into
 
   [[nodiscard]] OutlinePoint nearest(double x, double y) const {
     const Vec2 offset = (Vec2{x, y} - frame.pixels.centre_px) * pixel;
     return nearest_point(ghost.outline, {dot(offset, along), cross(along, offset)});
   }
+  // Whether pixels far inside depend on one level, or on a profile alone; fits give a ghost one of them.
+  [[nodiscard]] bool has_interior() const { return !ghost.has_profile || ghost.inside == Rgb{}; }
   [[nodiscard]] std::uint32_t index(int x, int y) const {
     return static_cast<std::uint32_t>(y * frame.pixels.width + x);
   }
 };
+
+void add_weights(const ShadeWeights& from, double factor, ShadeWeights& to) {
+  to.border += factor * from.border;
+  to.inside += factor * from.inside;
+}
+
+// The means of the weights and their derivatives over the squares of a pixel.
+void add_squares(const PlacedShape& shape, int x, int y, bool with_derivatives, GhostPixel& pixel) {
+  const double step = 1.0 / shape.across, width = shape.pixel * step, part = step * step;
+  for (int k = 0; k < shape.across * shape.across; ++k) {
+    const OutlinePoint nearest =
+        shape.nearest(x + (k % shape.across + 0.5) * step, y + (k / shape.across + 0.5) * step);  // NOLINT
+    if (nearest.distance > shape.reach_out) continue;
+    add_weights(shade_weights(shape.ghost.shade, nearest.distance, width), part, pixel.weights);
+    if (!with_derivatives) continue;
+    const auto by_shape = by_shape_of(shape.ghost, nearest, width);
+    for (std::size_t i = 0; i < kShapeCurves; ++i) add_weights(by_shape[i], part, pixel.by_shape[i]);
+  }
+}
+
+// A pixel that the inside's level has alone.
+void add_inside(const PlacedShape& shape, std::uint32_t index, bool with_derivatives, GhostPixels& pixels) {
+  if (!shape.ghost.has_profile) return pixels.flat.push_back(index);
+  pixels.inner.push_back({index, {}, {}});
+  add_profile(shape.ghost, point_of(shape.frame, index), with_derivatives, pixels.inner.back());
+}
 
 constexpr int kBlockSide = 8;
 
@@ -95,18 +126,26 @@ void add_block(const PlacedShape& shape, PixelRange columns, PixelRange rows, bo
   const double radius = shape.pixel * std::hypot(half_width, half_height);
   const double middle = shape.nearest(columns.first + half_width, rows.first + half_height).distance;
   if (middle > shape.reach_out + radius) return;
-  const bool all_flat = !shape.ghost.has_profile && middle < -(shape.reach_in + radius);
+  const bool all_flat = shape.has_interior() && middle < -(shape.reach_in + radius);
   for (int y = rows.first; y < rows.last; ++y) {
     for (int x = columns.first; x < columns.last; ++x) {
       if (!shape.frame.is_sampled(x, y)) continue;
       if (all_flat) {
-        pixels.flat.push_back(shape.index(x, y));
+        add_inside(shape, shape.index(x, y), with_derivatives, pixels);
+        continue;
+      }
+      if (shape.across > 1) {
+        pixels.near_border.push_back({shape.index(x, y), {}, {}, shape.ghost.inside, {}});
+        add_squares(shape, x, y, with_derivatives, pixels.near_border.back());
+        if (shape.ghost.has_profile)
+          add_profile(shape.ghost, point_of(shape.frame, shape.index(x, y)), with_derivatives,
+                      pixels.near_border.back());
         continue;
       }
       const OutlinePoint nearest = shape.nearest(x + 0.5, y + 0.5);
       if (nearest.distance > shape.reach_out) continue;
-      if (nearest.distance < -shape.reach_in && !shape.ghost.has_profile) {
-        pixels.flat.push_back(shape.index(x, y));
+      if (shape.has_interior() && nearest.distance < -shape.reach_in) {
+        add_inside(shape, shape.index(x, y), with_derivatives, pixels);
         continue;
       }
       pixels.near_border.push_back({shape.index(x, y),
@@ -139,7 +178,8 @@ GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, b
                           {frame.to_light.x, -frame.to_light.y},
                           pixel,
                           ghost.shade.fade_out + 0.5 * pixel,
-                          ghost.shade.fade_in + 0.5 * pixel};
+                          ghost.shade.fade_in + 0.5 * pixel,
+                          samples_across(ghost.outline, pixel)};
   const double radius =
       std::hypot(std::max(ghost.outline.left, ghost.outline.right), ghost.outline.half_height) + shape.reach_out;
   const Vec2 origin = frame.pixels.centre_px + shape.along * (scale * ghost.outline.centre);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "contrejour/expert/measured_flare.h"
@@ -19,10 +20,15 @@ inline constexpr std::size_t kPlaceCurves = 4;   // of these, those on which a p
 struct StationFrame {
   TangentFrame pixels;
   Vec2 to_light{1.0, 0.0};  // unit, y up
-  // A fit may take one pixel of so many, evenly spread: those for which x + 2 y is a multiple.
+  // A fit may take one pixel of so many, evenly spread: those for which x + 2 y is a multiple; and others that are
+  // marked, row by row.
   int sampled_every = 1;
+  std::shared_ptr<const std::vector<bool>> also_sampled = nullptr;
 
-  [[nodiscard]] bool is_sampled(int x, int y) const { return (x + 2 * y) % sampled_every == 0; }
+  [[nodiscard]] bool is_sampled(int x, int y) const {
+    return (x + 2 * y) % sampled_every == 0 ||
+           (also_sampled && (*also_sampled)[static_cast<std::size_t>(y * pixels.width + x)]);
+  }
 };
 
 struct GhostPixel {
@@ -33,10 +39,18 @@ struct GhostPixel {
   std::array<Rgb, kPlaceCurves> inside_by_shape{};  // derivatives with respect to the values of curves 0..3
 };
 
-// Most pixels of a ghost without a profile lie where its shade is the inside's level alone, and depend on no shape
-// parameter. A ghost with a profile has no such pixels.
+// A pixel of a ghost with a profile where the border has no part: it depends on place and size only.
+struct InnerPixel {
+  std::uint32_t index = 0;
+  Rgb inside{};
+  std::array<Rgb, kPlaceCurves> inside_by_shape{};
+};
+
+// Most pixels of a ghost lie where its shade is the inside's level alone: flat ones depend on no shape parameter, those
+// of a ghost with a profile on a few.
 struct GhostPixels {
   std::vector<GhostPixel> near_border;
+  std::vector<InnerPixel> inner;
   std::vector<std::uint32_t> flat;  // indices
 };
 

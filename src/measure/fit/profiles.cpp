@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "measure/find/find_ghosts.h"
+#include "measure/find/find_small_ghosts.h"
 #include "measure/fit/amplitudes.h"
 #include "measure/fit/one_ghost.h"
+#include "measure/fit/small_ghosts.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -109,40 +111,42 @@ bool choose_profiles(ProfileFit& all) {
 // All outlines together, with the optical centre, then the levels once more.
 void fit_shapes(ProfileFit& all) {
   FlareFit& fit = all.fit;
-  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples), fit.flare(),
+  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples, fit.flare()), fit.flare(),
                                     {fit.options.huber, kShapeIterations, true});
   std::vector<FitStation> moved = all.stations;
   for (FitStation& station : moved) move_centre(station, shapes.centre_shift);
   (void)all.keep(with_best_amplitudes(moved, shapes.flare, all.settings, fit.context), shapes.centre_shift);
 }
 
-// A disc found in what the flare leaves, fitted by itself and then with the levels of all: the profiles and diffuse
-// ghosts have taken its light as far as they could, and give it back. Kept if the stations held out are likelier.
-bool add_from_residual(ProfileFit& all, const std::vector<FitStation>& residuals, const FoundGhost& found) {
-  std::optional<MeasuredGhost> ghost = fitted_alone(all.fit, residuals, found);
+// A ghost fitted by itself to what the flare leaves. Kept if the stations held out are likelier.
+bool add_from_residual(ProfileFit& all, std::optional<MeasuredGhost> ghost, const FoundGhost& found) {
   if (!ghost) return false;
   MeasuredFlare more = all.fit.flare();
   const std::size_t at = 1 + all.fit.result.found.size();  // the diffuse ghosts come last
   ghost->name = fmt::format("{}", at);
   more.ghosts.insert(more.ghosts.begin() + static_cast<std::ptrdiff_t>(at), std::move(*ghost));
-  if (!all.keep(all.with_levels(std::move(more)), 0.0, kLeastHeldGain)) return false;
+  if (!all.keep(std::move(more), 0.0, kLeastHeldGain)) return false;
   all.fit.result.found.push_back(found);
   return true;
 }
 
 // The search again, in the pictures that profiles leave: ghosts beside or under brighter ones show only now. Returns
 // how many were found, `most` or fewer.
-int search_residual(ProfileFit& all, int most) {
+int search_residual(ProfileFit& all, int most, bool small) {
   FlareFit& fit = all.fit;
+  const GhostSearch search{6.0, fit.options.min_contrast};
   std::vector<FoundGhost> known;
   int added = 0;
   for (int rejected = 0; rejected < kMostRejected && added < most && !fit.context.cancelled();) {
-    const std::vector<FitStation> residuals = half_size_stations(residual_stations(fit.fine, fit.flare(), fit.context));
-    const auto found = strongest_disc(search_pictures(residuals, usual_error(residuals)),
-                                      {6.0, fit.options.min_contrast}, known, fit.context);
+    std::vector<FitStation> residuals = residual_stations(fit.fine, fit.flare(), fit.context);
+    if (!small) residuals = half_size_stations(residuals);
+    const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals));
+    const auto found = small ? strongest_spot(pictures, search, known, fit.context)
+                             : strongest_disc(pictures, search, known, fit.context);
     if (!found) break;
     known.push_back(*found);
-    const bool is_new = add_from_residual(all, residuals, *found);
+    const bool is_new = add_from_residual(
+        all, small ? fitted_spot(fit, residuals, *found) : fitted_alone(fit, residuals, *found), *found);
     rejected = is_new ? 0 : rejected + 1;
     added += is_new ? 1 : 0;
   }
@@ -168,8 +172,13 @@ void fit_profiles(FlareFit& fit) {
   if (!choose_profiles(all)) return;
   fit_shapes(all);
   if (!all.least) return;
-  const auto found = static_cast<int>(fit.result.found.size() - fit.small_found.size());
-  if (search_residual(all, std::min(kMostFromResidual, fit.options.max_ghosts - found)) == 0) return;
+  const auto small = static_cast<int>(fit.small_found.size());
+  const int found = static_cast<int>(fit.result.found.size()) - small;
+  int added = search_residual(all, std::min(kMostFromResidual, fit.options.max_ghosts - found), false);
+  added += search_residual(all, std::min(kMostFromResidual, fit.options.max_small_ghosts - small), true);
+  if (added == 0) return;
+  // Profiles and diffuse ghosts have taken the new ones' light as far as they could, and give it back.
+  (void)all.keep(all.with_levels(fit.flare()), 0.0);
   remove_dead(all);
   fit_shapes(all);
 }

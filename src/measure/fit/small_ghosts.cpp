@@ -65,11 +65,12 @@ std::optional<FitStation> window_about(const FitStation& station, const SpotPlac
   const int top = within(std::floor(middle.y - reach), frame.height), bottom = within(middle.y + reach, frame.height);
   if (right - left < 3 || bottom - top < 3) return std::nullopt;
   const Vec2 corner{static_cast<double>(left), static_cast<double>(top)};
-  FitStation window{
-      station.s,
-      {{right - left, bottom - top, frame.focal_length_px, frame.centre_px - corner}, station.frame.to_light},
-      Image(right - left, bottom - top),
-      Image(right - left, bottom - top)};
+  FitStation window;
+  window.s = station.s;
+  window.frame.pixels = {right - left, bottom - top, frame.focal_length_px, frame.centre_px - corner};
+  window.frame.to_light = station.frame.to_light;
+  window.rate = Image(right - left, bottom - top);
+  window.weight = window.rate;
   middle = middle - corner;
   for (int y = 0; y < bottom - top; ++y) {
     for (int x = 0; x < right - left; ++x) {
@@ -125,17 +126,9 @@ bool has_left(const MeasuredGhost& ghost, const FoundGhost& found, double pixel)
 
 // Fits a ghost to what the others leave, and keeps it if the pictures become likelier by more than chance.
 bool add_small_ghost(FlareFit& fit, const std::vector<FitStation>& residuals, const FoundGhost& found) {
-  const std::vector<FitStation> windows = windows_about(residuals, std::vector{found});
-  if (windows.empty()) return false;
-  const double before = FlareProblem(windows, fit.flare_of({})).cost(Eigen::VectorXd(0));
-  MeasuredFlare alone = fit.flare_of({start_of_ghost(found, windows, fit.flare().s_max)});
-  LevelFit best{alone, before, 0.0};
-  for (const double huber : {kFarHuber, fit.options.huber})
-    best = optimised(fit, windows, best.flare, {huber, kAloneIterations, false, true});
-  const auto unknowns = static_cast<double>(ParameterLayout(best.flare).size());
-  if (fit.context.cancelled() || before - best.cost < kLeastGain * unknowns) return false;
-  if (has_left(best.flare.ghosts[0], found, 1.0 / windows.front().frame.pixels.focal_length_px)) return false;
-  fit.small.push_back(best.flare.ghosts[0]);
+  std::optional<MeasuredGhost> ghost = fitted_spot(fit, residuals, found);
+  if (!ghost) return false;
+  fit.small.push_back(std::move(*ghost));
   fit.small_found.push_back(found);
   return true;
 }
@@ -151,6 +144,20 @@ double held_small_cost(const FlareFit& fit, const std::vector<MeasuredGhost>& gh
 }
 
 }  // namespace
+
+std::optional<MeasuredGhost> fitted_spot(FlareFit& fit, const std::vector<FitStation>& residuals,
+                                         const FoundGhost& found) {
+  const std::vector<FitStation> windows = windows_about(residuals, std::vector{found});
+  if (windows.empty()) return std::nullopt;
+  const double before = FlareProblem(windows, fit.flare_of({})).cost(Eigen::VectorXd(0));
+  LevelFit best{fit.flare_of({start_of_ghost(found, windows, fit.flare().s_max)}), before, 0.0};
+  for (const double huber : {kFarHuber, fit.options.huber})
+    best = optimised(fit, windows, best.flare, {huber, kAloneIterations, false, true});
+  const auto unknowns = static_cast<double>(ParameterLayout(best.flare).size());
+  if (fit.context.cancelled() || before - best.cost < kLeastGain * unknowns) return std::nullopt;
+  if (has_left(best.flare.ghosts[0], found, 1.0 / windows.front().frame.pixels.focal_length_px)) return std::nullopt;
+  return best.flare.ghosts[0];
+}
 
 void find_small_ghosts(FlareFit& fit, int most) {
   std::vector<FoundGhost> known = fit.small_found;

@@ -4,6 +4,9 @@
 // the way. Thread-safety: as flare_fit_state.h.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "measure/fit/flare_fit_state.h"
 
 namespace contrejour::inline internal {
@@ -13,5 +16,10 @@ void find_small_ghosts(FlareFit& fit, int most);
 
 // The last fit of all of them, with as many coefficients as make the stations held out likeliest.
 void finish_small_ghosts(FlareFit& fit);
+
+// The ghost that a spot becomes in windows about it, or none if the pictures do not become likelier by more than
+// chance. residuals: in full size, without all other ghosts.
+[[nodiscard]] std::optional<MeasuredGhost> fitted_spot(FlareFit& fit, const std::vector<FitStation>& residuals,
+                                                       const FoundGhost& found);
 
 }  // namespace contrejour::inline internal

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@ constexpr std::size_t kFewestStations = 5;
 constexpr double kMasked = 0.015;  // of the width, about the light
 constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this part of it count as noise
 constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
+// Ghosts up to this radius have every pixel within kAboutPart * radius + kAbout_px fitted.
+constexpr double kSmall_px = 8.0, kAboutPart = 1.3, kAbout_px = 2.0;
 constexpr double kUsable = 0.5;    // of a block's pixels, for the block to be used
 
 // Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
@@ -149,12 +152,28 @@ double bright_value(const FitStation& station) {
   return static_cast<double>(*at);
 }
 
+// The brightest value of a channel at a pixel and its neighbours, not below 0.
+double brightest_near(const Image& rate, int x, int y, int channel) {
+  double most = 0.0;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, rate.height - 1); ++j) {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, rate.width - 1); ++i)
+      most = std::max(most, static_cast<double>(rate.at(i, j, channel)));
+  }
+  return most;
+}
+
+// The error is a part of the brightest value nearby: a part of a pixel's own value would favour those that are low by
+// chance, as a Bayer mosaic makes every second pixel of a small spot.
 void add_model_error(FitStation& station, double model_error, double floor) {
-  for (std::size_t k = 0; k < station.rate.pixels.size(); ++k) {
-    float& weight = station.weight.pixels[k];
-    if (weight == 0.0F) continue;
-    const double off = model_error * std::max(static_cast<double>(station.rate.pixels[k]), 0.0);
-    weight = static_cast<float>(1.0 / (1.0 / static_cast<double>(weight) + off * off + floor * floor));
+  for (int y = 0; y < station.rate.height; ++y) {
+    for (int x = 0; x < station.rate.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        float& weight = station.weight.at(x, y, c);
+        if (weight == 0.0F) continue;
+        const double off = model_error * brightest_near(station.rate, x, y, c);
+        weight = static_cast<float>(1.0 / (1.0 / static_cast<double>(weight) + off * off + floor * floor));
+      }
+    }
   }
 }
 
@@ -256,9 +275,36 @@ std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloP
   return stations;
 }
 
-std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every) {
+namespace {
+
+// The pixels about ghosts that are small at this station.
+std::vector<bool> about_small_ghosts(const FitStation& station, const MeasuredFlare& flare) {
+  const TangentFrame& frame = station.frame.pixels;
+  std::vector<bool> marked(station.rate.pixels.size() / 3, false);
+  const Vec2 along{station.frame.to_light.x, -station.frame.to_light.y};
+  for (const MeasuredGhost& ghost : flare.ghosts) {
+    const auto at = ghost_at(ghost, station.s, flare.s_max);
+    if (!at) continue;
+    const GhostOutline& outline = at->outline;
+    const double radius = std::max({outline.left, outline.right, outline.half_height}) * frame.focal_length_px;
+    if (radius > kSmall_px) continue;
+    const Vec2 middle = frame.centre_px + along * (outline.centre * frame.focal_length_px);
+    const double reach = kAboutPart * radius + kAbout_px;
+    for (int y = std::max(0, static_cast<int>(middle.y - reach)); y < frame.height && y < middle.y + reach; ++y) {
+      for (int x = std::max(0, static_cast<int>(middle.x - reach)); x < frame.width && x < middle.x + reach; ++x)
+        marked[static_cast<std::size_t>(y * frame.width + x)] = true;
+    }
+  }
+  return marked;
+}
+
+}  // namespace
+
+std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every, const MeasuredFlare& flare) {
   for (FitStation& station : stations) {
     station.frame.sampled_every = every;
+    if (!flare.ghosts.empty())
+      station.frame.also_sampled = std::make_shared<const std::vector<bool>>(about_small_ghosts(station, flare));
     for (int y = 0; y < station.rate.height; ++y) {
       for (int x = 0; x < station.rate.width; ++x) {
         for (int c = 0; c < 3; ++c) {

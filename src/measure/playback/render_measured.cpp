@@ -9,6 +9,7 @@
 #include "base/tasks.h"
 #include "contrejour/expert/measured_flare.h"
 #include "measure/model/outline_cubic.h"
+#include "measure/model/pixel_samples.h"
 #include "measure/playback/ghost_row.h"
 #include "measure/playback/measured_range.h"
 
@@ -28,6 +29,7 @@ struct PlacedGhost {
   Vec2 along;   // from the optical centre to the light, unit
   double reach = 0;  // no light farther from the origin
   double band_in = 0, band_out = 0;  // beyond these distances inside and outside the border, the level is constant
+  int across = 1;  // squares that each side of a pixel is divided into: the packet's unit of length is one of them
 };
 
 std::array<float, 4> power_basis(double p0, double p1, double p2, double p3) {
@@ -42,9 +44,10 @@ GhostOutline in_pixels(const GhostOutline& o, double scale) {
 }
 
 PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, const TangentFrame& frame) {
-  const double scale = frame.focal_length_px, per_pixel = 1.0 / (scale * scale);
-  const GhostOutline outline = in_pixels(ghost.outline, scale);
   PlacedGhost at;
+  at.across = samples_across(ghost.outline, 1.0 / frame.focal_length_px);
+  const double scale = frame.focal_length_px * at.across, per_pixel = 1.0 / (scale * scale);
+  const GhostOutline outline = in_pixels(ghost.outline, scale);
   const std::array<OutlineCubic, 2> cubics{left_cubic(outline), right_cubic(outline)};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto& c = cubics[k].control;
@@ -70,10 +73,10 @@ PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, cons
   at.packet.per_right = static_cast<float>(1.0 / outline.right);
   at.packet.per_height = static_cast<float>(1.0 / outline.half_height);
   at.along = {along.x, -along.y};
-  at.origin = frame.centre_px + at.along * (scale * ghost.outline.centre);
-  at.band_in = scale * ghost.shade.fade_in + kSlack_px;
-  at.band_out = scale * ghost.shade.fade_out + kSlack_px;
-  at.reach = std::hypot(std::max(outline.left, outline.right), outline.half_height) + at.band_out;
+  at.origin = frame.centre_px + at.along * (frame.focal_length_px * ghost.outline.centre);
+  at.band_in = frame.focal_length_px * ghost.shade.fade_in + kSlack_px;
+  at.band_out = frame.focal_length_px * ghost.shade.fade_out + kSlack_px;
+  at.reach = std::hypot(std::max(outline.left, outline.right), outline.half_height) / at.across + at.band_out;
   return at;
 }
 
@@ -93,7 +96,8 @@ void place_light(const MeasuredFlare& flare, const FlareLight& light, const Tang
 
 // A row of points in the ghost's own axes; (x, y) in the picture.
 PixelLine line_of(const PlacedGhost& ghost, double x, double y, double step) {
-  const Vec2 offset = Vec2{x, y} - ghost.origin;
+  const Vec2 offset = (Vec2{x, y} - ghost.origin) * ghost.across;
+  step *= ghost.across;
   return {static_cast<float>(dot(offset, ghost.along)), static_cast<float>(cross(ghost.along, offset)),
           static_cast<float>(step * ghost.along.x), static_cast<float>(-step * ghost.along.y)};
 }
@@ -104,6 +108,21 @@ void fill(const PlacedGhost& at, int left, int y, std::size_t count, float* rgb)
   if (ghost.has_profile) return add_inside(ghost, line_of(at, left + 0.5, y + 0.5, 1.0), count, rgb);
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t c = 0; c < 3; ++c) rgb[3 * k + c] += ghost.inside[c];
+  }
+}
+
+// Pixels of a row, each the sum over its squares.
+void add_squares(const PlacedGhost& ghost, int left, int y, std::size_t count, float* rgb) {
+  const auto across = static_cast<std::size_t>(ghost.across);
+  const double step = 1.0 / ghost.across;
+  std::vector<float> squares(3 * across * count);
+  for (int row = 0; row < ghost.across; ++row) {
+    std::ranges::fill(squares, 0.0F);
+    add_ghost(ghost.packet, line_of(ghost, left + 0.5 * step, y + (row + 0.5) * step, step), across * count,
+              squares.data());
+    for (std::size_t k = 0; k < across * count; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) rgb[3 * (k / across) + c] += squares[3 * k + c];
+    }
   }
 }
 
@@ -121,13 +140,15 @@ void add_band(const PlacedGhost& ghost, int top, int bottom, Image& image) {
   ghost_distances(ghost.packet, line_of(ghost, (first + 0.5) * kBlock, middle, kBlock), distances.size(),
                   distances.data());
   for (int block = first; block < last; ++block) {
-    const auto distance = static_cast<double>(distances[static_cast<std::size_t>(block - first)]);
+    const double distance = static_cast<double>(distances[static_cast<std::size_t>(block - first)]) / ghost.across;
     if (distance > ghost.band_out + kBlockRadius) continue;
     const int left = block * kBlock;
     const auto count = static_cast<std::size_t>(std::min(kBlock, image.width - left));
     for (int y = top; y < bottom; ++y) {
       float* rgb = &image.at(left, y);
-      if (distance < -(ghost.band_in + kBlockRadius)) {
+      if (ghost.across > 1) {
+        add_squares(ghost, left, y, count, rgb);
+      } else if (distance < -(ghost.band_in + kBlockRadius)) {
         fill(ghost, left, y, count, rgb);
       } else {
         add_ghost(ghost.packet, line_of(ghost, left + 0.5, y + 0.5, 1.0), count, rgb);
