@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/csv_text.h"
 #include "cli/text_table.h"
 #include "contrejour/expert/settings.h"
 
@@ -47,13 +48,6 @@ std::vector<NamedValue> values_of_row(const PredictionRow& row) {
     values.emplace_back("rank", row.rating->rank);
   }
   return values;
-}
-
-// Quoted as in RFC 4180.
-std::string csv_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string header_of(const std::vector<NamedValue>& values) {

@@ -17,7 +17,7 @@ bool has_index(const PropertySetStruct& set, int index) {
 }
 
 template <class T>
-Status set_one(PropertySetHandle set, const char* property, int index, T value) {
+Status mlt_set_one(PropertySetHandle set, const char* property, int index, T value) {
   if (set == nullptr) return status::kErrBadHandle;
   if (index < 0) return status::kErrBadIndex;
   auto& values = set->values[property];
@@ -51,7 +51,7 @@ Status get_number(PropertySetHandle set, const char* property, int index, Number
 }
 
 // A number that is read as text is text from then on.
-Status get_text(PropertySetHandle set, const char* property, int index, char** to) {
+Status mlt_get_text(PropertySetHandle set, const char* property, int index, char** to) {
   PropertyValue* value = nullptr;
   const Status got = get_one(set, property, index, &value);
   if (got != status::kOk) return got;
@@ -72,14 +72,14 @@ Status get_pointer(PropertySetHandle set, const char* property, int index, void*
 const PropertySuite& properties() {
   static const PropertySuite suite = [] {
     PropertySuite functions{};
-    functions.set_pointer = &set_one<void*>;
+    functions.set_pointer = &mlt_set_one<void*>;
     functions.set_string = [](PropertySetHandle set, const char* property, int index, const char* value) {
-      return set_one<std::string>(set, property, index, value);
+      return mlt_set_one<std::string>(set, property, index, value);
     };
-    functions.set_double = &set_one<double>;
-    functions.set_int = &set_one<int>;
+    functions.set_double = &mlt_set_one<double>;
+    functions.set_int = &mlt_set_one<int>;
     functions.get_pointer = &get_pointer;
-    functions.get_string = &get_text;
+    functions.get_string = &mlt_get_text;
     functions.get_double = &get_number<double>;
     functions.get_int = &get_number<int>;
     functions.get_dimension = [](PropertySetHandle set, const char* property, int* count) {

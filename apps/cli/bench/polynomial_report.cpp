@@ -9,6 +9,7 @@
 #include "cli/bench/polynomial_fits.h"
 #include "cli/bench/report.h"
 #include "cli/bench/thesis_figures.h"
+#include "cli/csv_text.h"
 #include "cli/line_chart.h"
 #include "cli/text_table.h"
 
@@ -48,12 +49,6 @@ std::string table_text(const PolynomialFits& fits, const TableTitle& title) {
                optional_text(row.thesis_error, error_text), optional_text(row.thesis_seconds, seconds_text), row.note});
   }
   return any ? fmt::format("\n{}\n{}", title.title, table.text()) : "";
-}
-
-std::string csv_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 using AxisValue = std::function<double(const published::CurvePoint&)>;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kWalchParameters = 12;
 constexpr std::size_t kPredictFrom = 4;  // stations, from which on a parabola predicts the next
-constexpr double kLeastScale = 1e-4;     // of a parameter that is 0, for its step
+constexpr double kScaleOfZero = 1e-4;     // of a parameter that is 0, for its step
 using WalchParameters = std::array<double, kWalchParameters>;
 
 // Shape before shade, as the paper orders them.
@@ -159,7 +159,7 @@ struct WalchDescent {
   }
 };
 
-double scale_of(double value) { return std::max(std::abs(value), kLeastScale); }
+double scale_of(double value) { return std::max(std::abs(value), kScaleOfZero); }
 
 std::vector<WalchParameters> start_of(const std::vector<std::vector<WalchParameters>>& fitted,
                                       std::span<const double> s, double at) {

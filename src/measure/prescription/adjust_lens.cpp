@@ -25,7 +25,7 @@ constexpr double kMostTolerances = 6.0;  // a number's bounds
 constexpr double kSettledCost = 1e-3;
 
 // One resolution.
-struct Level {
+struct PyramidLevel {
   LensStations stations;
   std::vector<Ghost> ghosts;
   std::vector<Image> weights;  // of pixels, kept while the lens changes
@@ -46,16 +46,16 @@ struct Adjustment {
   std::optional<Error> error;
 };
 
-Result<Level> prepare_level(const Adjustment& adjustment, int width, const Context& context) {
+Result<PyramidLevel> prepare_level(const Adjustment& adjustment, int width, const Context& context) {
   auto stations = lens_stations(adjustment.photographs, adjustment.lens.nominal, width, context);
   if (!stations) return tl::unexpected(stations.error());
   auto ghosts = visible_ghosts(*stations, adjustment.lens.nominal, adjustment.options.max_ghosts, context);
   if (!ghosts) return tl::unexpected(ghosts.error());
   if (ghosts->empty()) return invalid_argument("no ghost of this lens reaches the pictures");
-  return Level{std::move(*stations), std::move(*ghosts), {}, {}};
+  return PyramidLevel{std::move(*stations), std::move(*ghosts), {}, {}};
 }
 
-Result<MeasuredFigures> measure(Adjustment& adjustment, Level& level, const Eigen::VectorXd& unknowns,
+Result<MeasuredFigures> measure(Adjustment& adjustment, PyramidLevel& level, const Eigen::VectorXd& unknowns,
                                 const Context& context) {
   const auto state = lens_of(adjustment.lens, unknowns);
   if (!state) return tl::unexpected(state.error());
@@ -67,7 +67,7 @@ Result<MeasuredFigures> measure(Adjustment& adjustment, Level& level, const Eige
 // Where the lens has the light's own images, as the sweep's geometry describes them: the image of light perpendicular
 // to the sensor, which is the geometry's centre (tilted elements leave it nearly where the lens's axis meets the
 // sensor, decentred ones move it), and half the distance of two images at either side.
-Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const Level& level,
+Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const PyramidLevel& level,
                                         const Eigen::VectorXd& unknowns) {
   const auto state = lens_of(adjustment.lens, unknowns);
   if (!state) return tl::unexpected(state.error());
@@ -82,7 +82,7 @@ Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const Leve
 }
 
 // What the geometry says of these three, and its standard errors.
-void set_light_images(const Adjustment& adjustment, Level& level) {
+void set_light_images(const Adjustment& adjustment, PyramidLevel& level) {
   const SweepGeometry& geometry = adjustment.photographs.geometry;
   const std::vector<double>& angles = adjustment.photographs.sweep.angles_rad;
   level.span_rad = 0.0;
@@ -99,7 +99,7 @@ void set_light_images(const Adjustment& adjustment, Level& level) {
                                                     std::hypot(scatter / std::sqrt(count), kLeastSpanError_px)};
 }
 
-Result<void> set_light_derivatives(const Adjustment& adjustment, Level& level) {
+Result<void> set_light_derivatives(const Adjustment& adjustment, PyramidLevel& level) {
   const Eigen::VectorXd& at = adjustment.unknowns;
   level.light_derivatives.setZero(3, at.size());
   for (Eigen::Index n = 0; n < at.size(); ++n) {
@@ -116,7 +116,7 @@ Result<void> set_light_derivatives(const Adjustment& adjustment, Level& level) {
   return {};
 }
 
-void add_light_images(const Level& level, const Eigen::Vector3d& images_px, NormalEquations& equations) {
+void add_light_images(const PyramidLevel& level, const Eigen::Vector3d& images_px, NormalEquations& equations) {
   const Eigen::Vector3d off = images_px - level.light_px;
   const Eigen::Vector3d weight = level.light_error_px.cwiseAbs2().cwiseInverse();
   equations.cost += 0.5 * off.dot(weight.cwiseProduct(off));
@@ -124,7 +124,7 @@ void add_light_images(const Level& level, const Eigen::Vector3d& images_px, Norm
   equations.hessian += level.light_derivatives.transpose() * weight.asDiagonal() * level.light_derivatives;
 }
 
-NormalEquations equations_of(const MeasuredFigures& figures, const Level& level, const Eigen::VectorXd& unknowns,
+NormalEquations equations_of(const MeasuredFigures& figures, const PyramidLevel& level, const Eigen::VectorXd& unknowns,
                              const Eigen::VectorXd& prior) {
   const Eigen::VectorXd inverse = prior.cwiseAbs2().cwiseInverse();
   NormalEquations equations;
@@ -141,7 +141,7 @@ NormalEquations equations_of(const MeasuredFigures& figures, const Level& level,
 }
 
 // Levenberg-Marquardt in one resolution. A lens that cannot be, with surfaces that cross, has an infinite cost.
-Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const Context& context) {
+Result<LeastSquaresResult> fit_level(Adjustment& adjustment, PyramidLevel& level, const Context& context) {
   auto derivatives = figure_derivatives(level.stations, adjustment.lens, adjustment.unknowns, level.ghosts, context);
   if (!derivatives) return tl::unexpected(derivatives.error());
   level.derivatives = std::move(*derivatives);
@@ -172,7 +172,7 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, Level& level, const
 }
 
 // The centre's unknowns in the pixels of a level.
-void set_centre_scale(Adjustment& adjustment, const Level& level, double& last_pitch_mm) {
+void set_centre_scale(Adjustment& adjustment, const PyramidLevel& level, double& last_pitch_mm) {
   const double pitch_mm = level.stations.pixel_pitch_mm;
   if (last_pitch_mm > 0.0) adjustment.unknowns.tail(2) *= last_pitch_mm / pitch_mm;
   last_pitch_mm = pitch_mm;

@@ -10,13 +10,13 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr double kRidge = 1e-9;  // relative to the diagonal, so that two equal columns have a solution
+constexpr double kLeastPivot = 1e-9;  // relative to the diagonal, so that two equal columns have a solution
 
 using Indices = std::vector<Eigen::Index>;
 
 Eigen::MatrixXd part_of(const Eigen::MatrixXd& a, const Indices& at) {
   Eigen::MatrixXd part = a(at, at);
-  part.diagonal() *= 1.0 + kRidge;
+  part.diagonal() *= 1.0 + kLeastPivot;
   return part;
 }
 
