@@ -39,7 +39,7 @@ class Tour(StudioTest):
     def test_two_minutes(self):
         lines = [["wait"], ["move", "status", 0.1, 0.5], ["frames", 2], ["screenshot", "start.png"], ["state", "start.json"],
                  ["drag", "viewport/light/1", 48, 24, 6], ["wait"],
-                 ["click", "viewport/picture", 0.609, 0.777], ["wait"], ["move", "status", 0.1, 0.5], ["frames", 2], ["screenshot", "ghost.png"],
+                 ["click", "viewport/picture", 0.763, 0.576], ["wait"], ["move", "status", 0.1, 0.5], ["frames", 2], ["screenshot", "ghost.png"],
                  ["state", "ghost.json"], ["click", "section/surface/11"], ["key", "f4"], ["frames", 4], ["click", "coatings/design"],
                  ["frames", 3], ["click", "coatings/design/v-coat"], ["wait"], ["move", "status", 0.1, 0.5], ["frames", 2],
                  ["screenshot", "coatings.png"], ["state", "coatings.json"], ["key", "ctrl+e"], ["frames", 4], ["screenshot", "export.png"],

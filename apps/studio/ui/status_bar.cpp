@@ -20,7 +20,7 @@ std::string ghosts_text(const Ui& ui) {
   if (under.empty()) return "no ghost here";
   std::string text = under.size() == 1 ? "ghost" : "ghosts";
   for (std::size_t k = 0; k < std::min(under.size(), kNamedGhosts); ++k)
-    text += " " + ghost_name(figures[under[k]].ghost);
+    text.append(" ").append(ghost_name(figures[under[k]].ghost));
   if (under.size() > kNamedGhosts) text += fmt::format(" and {} more", under.size() - kNamedGhosts);
   return text;
 }
