@@ -52,8 +52,8 @@ struct AtWavelength {
 // Builds the intervals of one ghost.
 class EntryBuilder {
  public:
-  EntryBuilder(const LensState& lens, std::vector<AtWavelength> paths, double largest_angle_rad)
-      : lens_(lens), paths_(std::move(paths)), largest_angle_rad_(largest_angle_rad) {}
+  EntryBuilder(const LensState& lens, std::vector<AtWavelength> paths, double largest_angle_rad, const Context& context)
+      : lens_(lens), paths_(std::move(paths)), largest_angle_rad_(largest_angle_rad), context_(context) {}
 
   [[nodiscard]] PupilBounds::Entry build() {
     std::vector<Node> nodes = first_nodes(PupilEffort::Finer);
@@ -106,6 +106,7 @@ class EntryBuilder {
     const EntranceWindow window = entrance_window(lens_, direction);
     Node node{angle_rad, std::nullopt};
     for (const AtWavelength& at : paths_) {
+      if (context_.cancelled()) break;  // a ghost's intervals take tenths of a second, and are then not used
       PupilRays rays(at.path, *at.tables, direction, circle_, window);
       std::optional<PupilRegion> region;
       if (guess) region = region_of(find_pupil(rays, {.hint = *guess}, scratch_));
@@ -191,6 +192,7 @@ class EntryBuilder {
   const LensState& lens_;
   std::vector<AtWavelength> paths_;
   double largest_angle_rad_;
+  const Context& context_;
   IrisShape circle_{Iris{}};
   RayGrid scratch_;
   PupilBounds::Entry entry_;
@@ -210,7 +212,7 @@ PupilBounds::PupilBounds(const LensState& lens, const PupilBoundsRange& range, c
     for (std::size_t k = 0; k < tables.size(); ++k) {
       paths.push_back({ghost_path(lens, range.ghosts[g], range.lambda_nm[k]), tables[k].get()});
     }
-    built[g] = EntryBuilder(lens, std::move(paths), range.largest_angle_rad).build();
+    built[g] = EntryBuilder(lens, std::move(paths), range.largest_angle_rad, context).build();
   });
   for (std::size_t g = 0; done && g < built.size(); ++g) entries_[range.ghosts[g]] = std::move(built[g]);
 }
