@@ -21,10 +21,11 @@ constexpr double kErrorOfTwo = 0.5;
 // apart, which is assumed before there are two differences.
 constexpr double kLeastRatio = 0.25, kFirstRatio = 0.7071, kLargestRatio = 0.9;
 
-// The error of the mean of n blurred drawings falls with this power of n: 9 dB for each doubling, as that of a light
-// that is divided into pieces (docs/physics/area-lights.md); slower where it is measured to, down to the least.
-constexpr double kPower = 1.5, kLeastPower = 0.5;
-constexpr double kSafely = 0.9;  // of the error asked for: what the number of drawings is chosen for
+// The error of the mean of n blurred drawings is taken to fall with this power of n; with the measured one where that
+// is less, down to a least. (Where ghosts only bend it is 1.5, as with a light that is divided into pieces.)
+constexpr double kLargestPower = 1.0, kLeastPower = 0.5;
+constexpr double kMostTimes = 5.0;  // as many parts as before, at most: the error may fall faster than expected
+constexpr double kSafely = 0.8;  // of the error asked for: what the number of drawings is chosen for
 
 // One of n equal parts of the exposure, which fade into their neighbours as tents do; the weights of the first and of
 // the last are even up to the shutter's opening and closing.
@@ -110,7 +111,7 @@ class Exposure {
   // to need.
   Result<LayeredFlare> over_parts() {
     auto mean = mean_of_parts(1);
-    double before = 0.0, power = kPower;
+    double before = 0.0, power = kLargestPower;
     int count_before = 0;
     for (int count = 1, next = 2; mean; count_before = std::exchange(count, next), next = next_count(count, power)) {
       auto finer = mean_of_parts(next);
@@ -119,7 +120,7 @@ class Exposure {
       if (!change) return tl::unexpected(change.error());
       if (count_before > 0 && before > 0.0 && *change > 0.0)
         power = std::clamp(std::log(before / *change) / std::log(static_cast<double>(count) / count_before),
-                           kLeastPower, kPower);
+                           kLeastPower, kLargestPower);
       before = *change;
       mean = std::move(finer);
       error_ = *change * std::pow(static_cast<double>(count) / next, power);
@@ -132,8 +133,8 @@ class Exposure {
   // The number of parts that is expected to have the error asked for, after one that had error_.
   [[nodiscard]] int next_count(int count, double power) const {
     const double wanted = count * std::pow(error_ / (kSafely * options_.error), 1.0 / power);
-    return static_cast<int>(
-        std::clamp(std::ceil(wanted), count + 1.0, std::min(2.0 * count, 1.0 * options_.max_intervals)));
+    const double most = std::min(kMostTimes * count, std::max(1.0 * options_.max_intervals, count + 1.0));
+    return static_cast<int>(std::clamp(std::ceil(wanted), count + 1.0, most));
   }
 
   Result<LayeredFlare> mean_of_parts(int count) {
