@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Discs that move with the light: where the pictures of a sweep show one more ghost.
 // For each speed and radius the step across the circle is measured all around it in every station. Its low quantile
-// over the circle, and then over the stations, is the contrast, so that a border of another ghost that lies along a
-// part of the circle, or in one station, does not count.
+// over the circle is the station's step, and the evidence of all stations' steps the contrast, so that a border of
+// another ghost that lies along a part of the circle, or in one station, does not count.
 // Thread-safety: pure functions; the same bits for any number of threads.
 #pragma once
 
