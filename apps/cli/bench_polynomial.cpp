@@ -112,7 +112,8 @@ void add_bench_polynomial(CLI::App& bench, Action& action) {
       ->option_text("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(tables));
-  command->add_flag("--full", options->fits.full, "use the published numbers of samples and iterations: 10 minutes");
+  command->add_flag("--full", options->fits.full,
+                    "use the published numbers of samples and iterations: several minutes");
   command->add_option("--lens", options->fits.lens, "the lens of the zones")
       ->option_text("LENS")
       ->capture_default_str();

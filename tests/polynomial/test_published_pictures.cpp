@@ -75,7 +75,7 @@ TEST_CASE("pictures do not depend on the number of threads, and random points co
   const auto three = draw_fitted_ghosts(pictured_lens(), options, {.threads = 3});
   REQUIRE((one.has_value() && three.has_value()));
   CHECK(one->pixels == three->pixels);
-  const auto grid = draw_traced_ghosts(pictured_lens(), small_picture());
+  const auto grid = draw_fitted_ghosts(pictured_lens(), small_picture());
   REQUIRE(grid.has_value());
   double last_db = 0.0;
   for (const int points : {20, 80, 320}) {  // 16 times as many rays: a quarter of the noise

@@ -37,7 +37,7 @@ struct PictureOptions {
   int points = 400;  // squared: of each ghost, one somewhere in each cell of a grid
   bool random_points = false;  // all of them anywhere instead
   int samples = 1200;  // of each ghost's fit
-  int degree = 5;
+  int degree = 6;
   double lambda_nm = 550.0;
   std::uint64_t seed = 1;
   PictureFaults faults = {};

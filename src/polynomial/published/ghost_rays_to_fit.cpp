@@ -9,8 +9,8 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr int kOpeningGrid = 96;
-constexpr double kRayMargin = 1.3;  // of the stop and the rims: rays up to there are fitted
+constexpr int kOpeningGrid = 128;
+constexpr double kRayMargin = 1.5;  // of the stop and the rims: the corners of a box lie so far out
 constexpr double kBoxMargin = 0.2;  // of the opening, around it
 constexpr double kInputScale = 2.0;  // of the first surface's rim, so that inputs lie within 1 for inclined light
 
