@@ -60,13 +60,12 @@ class Exposure {
   }
 
   Result<ExposedFlare> run() {
-    if (options_.blurs) return finished(over_parts());
     if (options_.lights_move) {
       auto swept = with_lights_on_their_way();
       if (!swept) return tl::unexpected(swept.error());
       if (*swept) return finished(std::move(**swept));
     }
-    return finished(over_time());
+    return finished(options_.blurs ? over_parts() : over_time());
   }
 
  private:

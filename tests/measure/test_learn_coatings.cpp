@@ -58,8 +58,6 @@ TEST_CASE("learn coatings: reflectances that the ghosts determine, of coatings t
     for (std::size_t c = 0; c < 3; ++c) {
       CAPTURE(of.surface);
       CAPTURE(c);
-      MESSAGE("surface ", of.surface, " channel ", c, ": ", of.reflectance[c], " true ", real[c], " error ",
-              of.relative_error[c]);
       CHECK(of.determined[c]);
       CHECK(of.reflectance[c] == doctest::Approx(real[c]).epsilon(0.1));
       CHECK(file[c] == doctest::Approx(of.reflectance[c]).epsilon(0.02));  // the file says what was learnt

@@ -116,7 +116,7 @@ TEST_CASE("drawings that are blurred by the motion at their moment need few time
       for (float& sample : flare.image.pixels) sample /= static_cast<float>(weights);
       return flare;
     };
-    const auto exposed = expose(draw, {.error = 0.003, .lights_move = true, .may_turn_back = true, .blurs = true});
+    const auto exposed = expose(draw, {.error = 0.003, .may_turn_back = true, .blurs = true});
     REQUIRE(exposed);
     const Image exact = mean_of([&](double t) { return bar(motion.place(t), motion.place(t) + 15.0); });
     CHECK(exposed->error <= 0.003);
