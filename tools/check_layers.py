@@ -77,7 +77,6 @@ PUBLIC = {
     "expert/fraunhofer.h": "diffraction",
     "frame.h": "render/radiometry",
     "frame_settings.h": "render/planning",
-    "expert/frame_motion.h": "render/planning",
     "expert/fresnel.h": "diffraction",
     "expert/ghost.h": "ghosts",
     "ghost_figures.h": "render/planning",

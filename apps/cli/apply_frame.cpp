@@ -61,22 +61,16 @@ Result<FlaredPhotograph> render_exposure(PlannedPhotograph&& planned, SourceRend
                                          const Context& context) {
   const double error =
       params::frame_settings(planned.options.values, planned.plan.grid.frame, planned.plan.space).area_error;
-  const auto plan_at = [&](const FrameMoment& moment) {
-    return plan_flare(planned.picture, *moment.lens, moment.values);
-  };
-  const auto lights = [&](const FrameMoment& moment) -> Result<std::vector<Light>> {
-    auto plan = plan_at(moment);
-    if (!plan) return tl::unexpected(plan.error());
-    return std::move(plan->lights);
-  };
-  const auto draw = [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
-    auto plan = plan_at(moment);
-    if (!plan) return tl::unexpected(plan.error());
-    auto drawn = draw_plan(*plan, planned, moment.values, renderer, within);
-    if (!drawn) return tl::unexpected(drawn.error());
-    return LayeredFlare{std::move(drawn->flare.image), std::move(drawn->layers), std::move(drawn->flare.statistics)};
-  };
-  auto exposed = planned.exposure->expose({lights, draw}, renderer, error, context);
+  auto exposed = planned.exposure->expose(
+      [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
+        auto plan = plan_flare(planned.picture, *moment.lens, moment.values);
+        if (!plan) return tl::unexpected(plan.error());
+        auto drawn = draw_plan(*plan, planned, moment.values, renderer, within);
+        if (!drawn) return tl::unexpected(drawn.error());
+        return LayeredFlare{std::move(drawn->flare.image), std::move(drawn->layers),
+                            std::move(drawn->flare.statistics)};
+      },
+      renderer, error, context);
   if (!exposed) return tl::unexpected(exposed.error());
   LayeredFlare& flare = exposed->flare;
   PictureFlare whole{std::move(flare.image), std::move(flare.statistics), {}};

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <memory>
-#include <vector>
 
 #include "cli/animation_option.h"
 #include "cli/frame_lens.h"
@@ -23,15 +22,10 @@ class FrameExposure {
   [[nodiscard]] static std::shared_ptr<const FrameExposure> create(const FrameValues& values, const FrameLens& lens,
                                                                    int frame);
 
+  // The flare as `draw` draws it at each time by the renderer, which then has the lens and the method of that time.
+  // error: as FrameSettings::area_error.
   using DrawMoment = std::function<Result<LayeredFlare>(const FrameMoment& moment, const Context& context)>;
-  using LightsOfMoment = std::function<Result<std::vector<Light>>(const FrameMoment& moment)>;
-  struct Scene {
-    LightsOfMoment lights;  // as draw() gives them to the renderer
-    DrawMoment draw;
-  };
-  // The flare as it is drawn at each time by the renderer, which then has the lens, the method and the motion of that
-  // time. error: as FrameSettings::area_error.
-  [[nodiscard]] Result<ExposedFlare> expose(const Scene& scene, SourceRenderer& renderer, double error,
+  [[nodiscard]] Result<ExposedFlare> expose(const DrawMoment& draw, SourceRenderer& renderer, double error,
                                             const Context& context) const;
 
   [[nodiscard]] const FlareSource& source() const { return lens_.first_source(); }
@@ -41,9 +35,6 @@ class FrameExposure {
       : values_(values), lens_(lens), frame_(frame) {}
 
   [[nodiscard]] Result<FrameMoment> at(const ExposureTimes& times) const;
-  [[nodiscard]] Result<bool> can_blur(const Scene& scene) const;
-  [[nodiscard]] Result<void> set_motion(Renderer& renderer, const Scene& scene, const FrameMoment& moment,
-                                        const ExposureTimes& times) const;
 
   const FrameValues& values_;
   const FrameLens& lens_;

@@ -68,20 +68,13 @@ Result<ExposedFlare> draw_frame(const PlannedFrame& planned, SourceRenderer& ren
     if (!flare) return tl::unexpected(flare.error());
     return ExposedFlare{std::move(*flare), 1, 0.0};
   }
-  const auto request_at = [&](const FrameMoment& moment) {
-    return request_of(moment.values, options.needs_light, planned.exposure->source(), *moment.lens);
-  };
-  const auto lights = [&](const FrameMoment& moment) -> Result<std::vector<Light>> {
-    auto request = request_at(moment);
-    if (!request) return tl::unexpected(request.error());
-    return std::move(request->lights);
-  };
-  const auto draw = [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
-    const auto request = request_at(moment);
-    if (!request) return tl::unexpected(request.error());
-    return draw_request(*request, options.layers, renderer, within);
-  };
-  return planned.exposure->expose({lights, draw}, renderer, planned.request.settings.area_error, context);
+  return planned.exposure->expose(
+      [&](const FrameMoment& moment, const Context& within) -> Result<LayeredFlare> {
+        const auto request = request_of(moment.values, options.needs_light, planned.exposure->source(), *moment.lens);
+        if (!request) return tl::unexpected(request.error());
+        return draw_request(*request, options.layers, renderer, within);
+      },
+      renderer, planned.request.settings.area_error, context);
 }
 
 }  // namespace

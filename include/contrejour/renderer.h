@@ -9,13 +9,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "contrejour/context.h"
 #include "contrejour/expert/flare_layers.h"
-#include "contrejour/expert/frame_motion.h"
 #include "contrejour/export.h"
 #include "contrejour/frame_settings.h"
 #include "contrejour/image_view.h"
@@ -52,10 +50,6 @@ class CONTREJOUR_API Renderer {
 
   // The lens of the frames that follow. Data that do not depend on the changes are kept.
   [[nodiscard]] Result<void> set_lens(LensState lens);
-  // The motion of the frames that follow, which are then means over a part of an exposure; nullopt, as at first: they
-  // are of one moment. Errors, when a frame is rendered: lights with a size; another number of lights; another lens
-  // than the frame's. Accuracy: that of FrameSettings::area_error, as far as each ghost moves steadily meanwhile.
-  void set_motion(std::optional<FrameMotion> motion);
   // The method of the frames that follow.
   [[nodiscard]] Result<void> set_method(MethodOptions method);
 

@@ -21,25 +21,6 @@ constexpr double kErrorOfTwo = 0.5;
 // apart, which is assumed before there are two differences.
 constexpr double kLeastRatio = 0.25, kFirstRatio = 0.7071, kLargestRatio = 0.9;
 
-// The error of the mean of n blurred drawings is taken to fall with this power of n; with the measured one where that
-// is less, down to a least. (Where ghosts only bend it is 1.5, as with a light that is divided into pieces.)
-constexpr double kLargestPower = 1.0, kLeastPower = 0.5;
-constexpr double kMostTimes = 5.0;  // as many parts as before, at most: the error may fall faster than expected
-constexpr double kSafely = 0.8;  // of the error asked for: what the number of drawings is chosen for
-
-// One of n equal parts of the exposure, which fade into their neighbours as tents do; the weights of the first and of
-// the last are even up to the shutter's opening and closing.
-ExposureTimes part_of_exposure(int part, int count) {
-  const auto times = [](double at, TimeWindow over) { return ExposureTimes{at, at, at, over}; };
-  if (count == 1) return times(0.5, {-0.5, -0.5, 0.5, 0.5});
-  constexpr double kEndMiddle = 13.0 / 24.0;  // the mean of the times of a part at an end, in widths
-  const double width = 1.0 / count, middle = kEndMiddle * width;
-  const double flat = 0.5 * width - middle, end = 1.5 * width - middle;
-  if (part == 0) return times(middle, {-middle, -middle, flat, end});
-  if (part == count - 1) return times(1.0 - middle, {-end, -flat, middle, middle});
-  return times((part + 0.5) * width, {-width, 0.0, 0.0, width});
-}
-
 // The RMS difference of two images over the peak of the second; 0 where they are equal.
 Result<double> difference(const Image& a, const Image& b) {
   const auto comparison = compare(b, a);
@@ -65,7 +46,7 @@ class Exposure {
       if (!swept) return tl::unexpected(swept.error());
       if (*swept) return finished(std::move(**swept));
     }
-    return finished(options_.blurs ? over_parts() : over_time());
+    return finished(over_time());
   }
 
  private:
@@ -104,47 +85,6 @@ class Exposure {
     auto swept = draw({0.5, 0.0, 1.0});
     if (!swept) return tl::unexpected(swept.error());
     return std::move(*swept);
-  }
-
-  // The mean of blurred drawings, each of a part of the exposure: one, two, and then as many as the error is expected
-  // to need.
-  Result<LayeredFlare> over_parts() {
-    auto mean = mean_of_parts(1);
-    double before = 0.0, power = kLargestPower;
-    int count_before = 0;
-    for (int count = 1, next = 2; mean; count_before = std::exchange(count, next), next = next_count(count, power)) {
-      auto finer = mean_of_parts(next);
-      if (!finer) return finer;
-      const auto change = difference(mean->image, finer->image);
-      if (!change) return tl::unexpected(change.error());
-      if (count_before > 0 && before > 0.0 && *change > 0.0)
-        power = std::clamp(std::log(before / *change) / std::log(static_cast<double>(count) / count_before),
-                           kLeastPower, kLargestPower);
-      before = *change;
-      mean = std::move(finer);
-      error_ = *change * std::pow(static_cast<double>(count) / next, power);
-      error_at_ = drawn_;
-      if (error_ <= options_.error || next >= options_.max_intervals) return mean;
-    }
-    return mean;
-  }
-
-  // The number of parts that is expected to have the error asked for, after one that had error_.
-  [[nodiscard]] int next_count(int count, double power) const {
-    const double wanted = count * std::pow(error_ / (kSafely * options_.error), 1.0 / power);
-    const double most = std::min(kMostTimes * count, std::max(1.0 * options_.max_intervals, count + 1.0));
-    return static_cast<int>(std::clamp(std::ceil(wanted), count + 1.0, most));
-  }
-
-  Result<LayeredFlare> mean_of_parts(int count) {
-    LayeredFlare sum;
-    for (int part = 0; part < count; ++part) {
-      const auto flare = draw(part_of_exposure(part, count));
-      if (!flare) return flare;
-      add_weighted(sum, *flare, 1.0);
-    }
-    scale(sum, 1.0 / count);
-    return sum;
   }
 
   // The trapezoidal rule, whose times are among those of twice as many intervals.

@@ -223,7 +223,7 @@ class Sequence(ProgramTest):
         self.assertGreater(psnr, 45)
         self.assertLess(drawn, 32)
         _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.7, 0.33], [0.7, 0.33]), sharp=1)
-        self.assertEqual(drawn, 3)
+        self.assertEqual(drawn, 2)
         _, drawn = self.blurred_and_mean(command, {"focal": (135, 135.01)}, ([0.5, 0.33], [0.7, 0.33]), sharp=1)
         self.assertEqual(drawn, 3)  # the light on its way at once
 

@@ -80,51 +80,6 @@ TEST_CASE("the mean of a moving shape keeps the error, with fewer drawings the l
   }
 }
 
-TEST_CASE("drawings that are blurred by the motion at their moment need few times") {
-  struct Motion {
-    std::string name;
-    std::function<double(double)> place, speed;
-    int most_drawn;
-  };
-  const Motion motions[] = {
-      {"steady", [](double t) { return 20 + 60 * t; }, [](double) { return 60.0; }, 3},
-      {"faster and faster", [](double t) { return 20 + 60 * t * t; }, [](double t) { return 120.0 * t; }, 65},
-      {"there and back", [](double t) { return 20 + 60 * std::abs(t - 0.5); },
-       [](double t) { return t < 0.5 ? -60.0 : 60.0; }, 65},
-      {"at rest", [](double) { return 20.0; }, [](double) { return 0.0; }, 3}};
-  for (const Motion& motion : motions) {
-    CAPTURE(motion.name);
-    const auto draw = [&](const ExposureTimes& times, const Context&) -> Result<LayeredFlare> {
-      REQUIRE(times.over);
-      CHECK(times.lights_from == times.parameters);
-      CHECK(times.lights_to == times.parameters);
-      const TimeWindow& over = *times.over;
-      CHECK(times.parameters + over.rise_from > -1e-9);
-      CHECK(times.parameters + over.fall_to < 1.0 + 1e-9);
-      const double place = motion.place(times.parameters), speed = motion.speed(times.parameters);
-      LayeredFlare flare{Image(kWidth, kHeight), {}, {}};
-      double weights = 0.0, moment = 0.0;
-      for (int k = 0; k < 500; ++k) {
-        const double time = std::lerp(over.rise_from, over.fall_to, (k + 0.5) / 500), weight = weight_at(over, time);
-        const Image one = bar(place + speed * time, place + speed * time + 15.0);
-        for (std::size_t i = 0; i < one.pixels.size(); ++i)
-          flare.image.pixels[i] += static_cast<float>(weight) * one.pixels[i];
-        weights += weight;
-        moment += weight * time;
-      }
-      CHECK(std::abs(moment / weights) < 1e-4);
-      for (float& sample : flare.image.pixels) sample /= static_cast<float>(weights);
-      return flare;
-    };
-    const auto exposed = expose(draw, {.error = 0.003, .may_turn_back = true, .blurs = true});
-    REQUIRE(exposed);
-    const Image exact = mean_of([&](double t) { return bar(motion.place(t), motion.place(t) + 15.0); });
-    CHECK(exposed->error <= 0.003);
-    CHECK(error_of(exposed->flare.image, exact) <= 0.004);
-    CHECK(exposed->drawn <= motion.most_drawn);
-  }
-}
-
 TEST_CASE("what does not change is drawn at the two ends and keeps its pixels") {
   const auto still = [](double) { return bar(20.25, 40.5); };
   const auto exposed = expose(moving(still), {});

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mean of a flare over the time for which the shutter is open, where the lens or the settings change meanwhile: a
 // zoom, a rack focus, an iris that closes (docs/physics/motion-blur.md). The flare is drawn at evenly spaced times,
-// twice as many again and again, until the mean is known to the error asked for. Where drawings can be blurred by the
-// motion of each ghost (frame_motion.h), few are needed.
+// twice as many again and again, until the mean is known to the error asked for.
 // Errors: those of the function that draws; Cancelled. The result is the same for any number of threads.
 // Thread-safety: a pure function, but for what the caller's function uses.
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "contrejour/context.h"
 #include "contrejour/expert/flare_layers.h"
-#include "contrejour/expert/frame_motion.h"
 #include "contrejour/export.h"
 
 namespace contrejour {
@@ -21,7 +18,6 @@ namespace contrejour {
 struct ExposureTimes {
   double parameters = 0.5;                      // lens and settings are those of this time
   double lights_from = 0.5, lights_to = 0.5;  // lights are on this part of their way: a path, or one position
-  std::optional<TimeWindow> over = std::nullopt;  // the mean over times about this one; nullopt: this moment
 };
 
 // Draws the flare at such times. Layers are matched by their names; a flare without layers has none at any time.
@@ -35,8 +31,6 @@ struct ExposureOptions {
   bool lights_move = false;
   // The change may turn back in the middle of the exposure, so that its two ends do not tell how much changes.
   bool may_turn_back = false;
-  // draw() can draw the mean over times about a moment.
-  bool blurs = false;
   int max_intervals = 128;  // a power of 2; drawing stops there, whatever the error
 };
 

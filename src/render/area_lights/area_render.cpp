@@ -138,27 +138,6 @@ class AreaPainter {
   double ms_ = 0.0;
 };
 
-// Chooses the images that the survey asks for, and paints them. from: when the survey began.
-Result<GhostImages> painted(const DrawPlan& draw, const PlannedFrame& frame, const SurveyedFrame& survey,
-                            Clock::time_point from, const Context& context) {
-  const std::vector<BlurredImage> images = blurred_images(survey, frame.settings);
-  if (context.cancelled()) return interrupted();
-  const double survey_ms = ms_since(from);
-  AreaPainter painter(draw, frame, context);
-  for (std::size_t k = 0; k < images.size(); ++k) {
-    if (const auto done = painter.paint(images[k], survey.peak); !done) return tl::unexpected(done.error());
-    if (context.cancelled()) return interrupted();
-    if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(images.size()));
-  }
-  return std::move(painter).finish(survey_ms);
-}
-
-Context without_progress(const Context& context) {
-  Context quiet = context;
-  quiet.progress = {};
-  return quiet;
-}
-
 }  // namespace
 
 Result<GhostImages> render_areas(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
@@ -175,26 +154,22 @@ Result<GhostImages> render_areas(const DrawPlan& draw, const FrameRequest& frame
   const double plan_ms = ms_since(start);
 
   start = Clock::now();
-  const auto survey = GhostSurvey(lens, *plan, lights, settings, without_progress(context)).of(std::move(wholes));
+  Context quiet = context;
+  quiet.progress = {};
+  const auto survey = GhostSurvey(lens, *plan, lights, settings, quiet).of(std::move(wholes));
   if (!survey) return tl::unexpected(survey.error());
-  auto ghosts = painted(draw, {lens, *plan, settings, cache}, *survey, start, context);
-  if (ghosts) count_first(ghosts->statistics, "plan", plan_ms);
-  return ghosts;
-}
+  const std::vector<BlurredImage> images = blurred_images(*survey, settings);
+  if (context.cancelled()) return interrupted();
+  const double survey_ms = ms_since(start);
 
-Result<GhostImages> render_moving(const DrawPlan& draw, const FrameRequest& frame, const FrameMotion& motion,
-                                  const Context& context) {
-  auto start = Clock::now();
-  if (const auto good = check_error_bound(frame.settings.area_error); !good) return tl::unexpected(good.error());
-  const auto plan = plan_frame(frame, context);
-  if (!plan) return tl::unexpected<Error>(plan.error());
-  const double plan_ms = ms_since(start);
-  start = Clock::now();
-  const auto survey =
-      GhostSurvey(frame.lens, *plan, frame.lights, frame.settings, without_progress(context)).over_time(motion);
-  if (!survey) return tl::unexpected(survey.error());
-  auto ghosts = painted(draw, {frame.lens, *plan, frame.settings, frame.cache}, *survey, start, context);
-  if (ghosts) count_first(ghosts->statistics, "plan", plan_ms);
+  AreaPainter painter(draw, {lens, *plan, settings, cache}, context);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    if (const auto painted = painter.paint(images[k], survey->peak); !painted) return tl::unexpected(painted.error());
+    if (context.cancelled()) return interrupted();
+    if (context.progress) context.progress(static_cast<double>(k + 1) / static_cast<double>(images.size()));
+  }
+  GhostImages ghosts = std::move(painter).finish(survey_ms);
+  count_first(ghosts.statistics, "plan", plan_ms);
   return ghosts;
 }
 

@@ -14,8 +14,7 @@ constexpr double kMisfitFraction = 0.3;   // and for ghosts that are drawn with 
 constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first trial
 constexpr int kTrials = 4;
 
-// Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights and of
-// all lights that move.
+// Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights.
 struct Job {
   std::shared_ptr<const LightPiece> piece;
   std::vector<const PlannedLight*> planned;  // one a pair
@@ -48,10 +47,10 @@ class Jobs {
 
  private:
   void add(const SurveyedLight& light, std::span<const int> levels) {
-    const bool is_own = light.parts.blur == PieceBlur::OwnShape;
+    const bool is_whole = light.parts.across == 1;
     Job own;
-    Job& job = is_own ? own : soft_;
-    if (is_own) job.piece = std::make_shared<const LightPiece>(light.parts.pieces.front());
+    Job& job = is_whole ? own : soft_;
+    if (is_whole) job.piece = std::make_shared<const LightPiece>(light.parts.pieces.front());
     job.is_point = job.piece->samples.empty();
     std::vector<int> fine;
     for (std::size_t g = 0; g < levels.size(); ++g)
@@ -59,14 +58,14 @@ class Jobs {
     for (std::size_t p = 0; p < light.parts.pieces.size(); ++p) {
       for (std::size_t g = 0; g < light.ghosts.size(); ++g) {
         const GhostBlur* blur = &light.blurs[p][g];
-        if (!is_own) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
+        if (!is_whole) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
         job.planned.push_back(planned(light.parts.planned[p], light.light_fractions[g]));
         job.ghost.push_back(light.ghosts[g]);
         job.pairs.push_back({blur, fine[g], spots_.size() + g});
       }
     }
     for (const GhostBlur& whole : light.wholes) spots_.push_back(&whole);
-    if (is_own) all.push_back(std::move(own));
+    if (is_whole) all.push_back(std::move(own));
   }
 
   // The light of a ghost of which only a part is made with this division.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 
 #include "contrejour/light.h"
@@ -33,23 +32,15 @@ struct PassingRay {
   double transmission = 0.0;
 };
 
-// A ray and four next to it: two that start to the right and above, one after each of two changes.
+// A ray and four next to it: two that start to the right and above, two from lights to the right and above.
 using RayFive = std::array<PassingRay, 5>;
-
-// Two changes that rays are compared after: the light moved to the right and up; or the lens and the light at a later
-// time, and no change.
-struct Changes {
-  std::array<std::reference_wrapper<const LensSteps>, 2> steps;
-  std::array<LightSource, 2> sources;
-  double size = 0.0;  // of each; derivatives are by a change of 1
-};
 
 // The rays of a ghost, by where they start in the plane of the entrance window.
 class Rays {
  public:
-  Rays(const LensSteps& steps, Ghost ghost, const LightSource& source, const Changes& changes, double z_mm)
-      : paths_{path(steps, ghost, source, z_mm), path(changes.steps[0].get(), ghost, changes.sources[0], z_mm),
-               path(changes.steps[1].get(), ghost, changes.sources[1], z_mm)} {}
+  Rays(const LensSteps& steps, Ghost ghost, const LightSource& source, double z_mm)
+      : source_(source), z_mm_(z_mm),
+        paths_{path(steps, ghost, {}), path(steps, ghost, {kAngleStep, 0.0}), path(steps, ghost, {0.0, kAngleStep})} {}
 
   [[nodiscard]] std::vector<RayFive> around(const std::vector<Vec2>& starts_mm, double step_mm) {
     const std::size_t count = starts_mm.size();
@@ -63,20 +54,20 @@ class Rays {
       nearest_rim_[k] = nearest_rim(k);
       for (std::size_t j = 0; j < 3; ++j) fives[k][j] = ray(j * count + k, nearest_rim_[k]);
     }
-    for (std::size_t change = 1; change <= 2; ++change) {
-      trace(change, starts_mm);
-      for (std::size_t k = 0; k < count; ++k) fives[k][2 + change] = ray(k, nearest_rim_[k]);
+    for (std::size_t light = 1; light <= 2; ++light) {
+      trace(light, starts_mm);
+      for (std::size_t k = 0; k < count; ++k) fives[k][2 + light] = ray(k, nearest_rim_[k]);
     }
     return fives;
   }
 
  private:
-  [[nodiscard]] static PacketPath path(const LensSteps& steps, Ghost ghost, const LightSource& source, double z_mm) {
-    return {steps, ghost, {{0.0, 0.0, z_mm}, source}};
+  [[nodiscard]] PacketPath path(const LensSteps& steps, Ghost ghost, Vec2 tangents) const {
+    return {steps, ghost, {{0.0, 0.0, z_mm_}, tangents == Vec2{} ? source_ : offset_source(source_, tangents)}};
   }
 
-  void trace(std::size_t which, const std::vector<Vec2>& starts_mm) {
-    PacketPath& path = paths_[which];
+  void trace(std::size_t light, const std::vector<Vec2>& starts_mm) {
+    PacketPath& path = paths_[light];
     const Vec2 origin_mm = starts_mm.front();
     path.start_from(origin_mm);
     count_ = starts_mm.size();
@@ -120,7 +111,9 @@ class Rays {
   [[nodiscard]] float* field(std::size_t k) { return fields_.data() + k * count_; }
 
   static constexpr std::size_t kRimsFrom = 6 + 2 * kMaxStopCrossings;
-  std::array<PacketPath, 3> paths_;  // as it is, and after each change
+  LightSource source_;
+  double z_mm_;
+  std::array<PacketPath, 3> paths_;  // for the light, for one to its right, for one above
   std::size_t count_ = 0;
   std::vector<float> fields_;
   std::vector<std::size_t> nearest_rim_;
@@ -129,9 +122,9 @@ class Rays {
 // First derivatives at a ray.
 class LocalMotion {
  public:
-  LocalMotion(const RayFive& rays, double step_mm, double change) : rays_(rays), step_mm_(step_mm), change_(change) {
+  LocalMotion(const RayFive& rays, double step_mm) : rays_(rays), step_mm_(step_mm) {
     sensor_by_start = derivative(1, step_mm, [](const PassingRay& ray) { return ray.sensor_mm; });
-    sensor_by_angle = derivative(3, change, [](const PassingRay& ray) { return ray.sensor_mm; });
+    sensor_by_angle = derivative(3, kAngleStep, [](const PassingRay& ray) { return ray.sensor_mm; });
   }
 
   [[nodiscard]] bool is_usable() const {
@@ -147,7 +140,8 @@ class LocalMotion {
   [[nodiscard]] LinearMap start_at_stop(std::size_t crossing) const {
     const LinearMap by_start = stop_by_start(crossing);
     if (!std::isnormal(by_start.determinant())) return kZeroMap;
-    return inverse(by_start) * derivative(3, change_, [&](const PassingRay& ray) { return ray.stop[crossing]; }) * -1.0;
+    return inverse(by_start) * derivative(3, kAngleStep, [&](const PassingRay& ray) { return ray.stop[crossing]; }) *
+           -1.0;
   }
   // How the point on the sensor moves with the angle, if the start moves as given.
   [[nodiscard]] LinearMap shift(const LinearMap& start_by_angle) const {
@@ -167,7 +161,7 @@ class LocalMotion {
     };
     const double here = height(rays_[0]);
     return {Vec2{height(rays_[1]) - here, height(rays_[2]) - here} * (1.0 / step_mm_),
-            Vec2{height(rays_[3]) - here, height(rays_[4]) - here} * (1.0 / change_)};
+            Vec2{height(rays_[3]) - here, height(rays_[4]) - here} * (1.0 / kAngleStep)};
   }
 
   LinearMap sensor_by_start, sensor_by_angle;
@@ -180,7 +174,7 @@ class LocalMotion {
   }
 
   const RayFive& rays_;
-  double step_mm_, change_;
+  double step_mm_;
 };
 
 // A ray at the border, and one of the interior, with what it stands for.
@@ -332,18 +326,15 @@ GhostMotion blind_motion(const LocalMotion& at, const PupilShape& pupil, double 
 
 }  // namespace
 
-namespace {
-
-GhostMotion motion_by(const Changes& changes, const LensSteps& steps, Ghost ghost, const LightSource& source,
-                      const LightWindows& windows) {
+GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source, const LightWindows& windows) {
   const LightFrame light(source, has_axial_symmetry(steps.lens(), ghost));
   const EntranceWindow& window = windows.of(light.symmetric);
   const auto pupil = pupils::find_pupil_shape(steps, ghost, light, window);
   if (!pupil) return {};
-  Rays rays(steps, ghost, source, changes, window.z_mm);
+  Rays rays(steps, ghost, source, window.z_mm);
   double step_mm = kRayStep * length(window.max_mm - window.min_mm);
   if (!pupil->is_open)
-    return blind_motion(LocalMotion(rays.around({pupil->middle_mm}, step_mm).front(), step_mm, changes.size), *pupil,
+    return blind_motion(LocalMotion(rays.around({pupil->middle_mm}, step_mm).front(), step_mm), *pupil,
                         source.direction.z);
   step_mm = std::min(step_mm, kPupilStep * std::sqrt(trace_of(pupil->covariance)));
 
@@ -351,11 +342,11 @@ GhostMotion motion_by(const Changes& changes, const LensSteps& steps, Ghost ghos
   for (const InnerPoint& point : pupil->inside) starts_mm.push_back(point.start_mm);
   for (const BorderPoint& point : pupil->border) starts_mm.push_back(point.start_mm);
   const std::vector<RayFive> fives = rays.around(starts_mm, step_mm);
-  const LocalMotion middle(fives.front(), step_mm, changes.size);
+  const LocalMotion middle(fives.front(), step_mm);
   std::vector<InnerMotion> inside;
   std::vector<BorderMotion> borders;
   for (std::size_t k = 1; k < fives.size(); ++k) {
-    const LocalMotion at(fives[k], step_mm, changes.size);
+    const LocalMotion at(fives[k], step_mm);
     if (!at.is_usable()) continue;
     const std::size_t border = k - 1 - pupil->inside.size();
     if (k <= pupil->inside.size())
@@ -383,19 +374,6 @@ GhostMotion motion_by(const Changes& changes, const LensSteps& steps, Ghost ghos
   normalise_fractions(motion.lines);
   if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};
   return motion;
-}
-
-}  // namespace
-
-GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source, const LightWindows& windows) {
-  const Changes changes{
-      {steps, steps}, {offset_source(source, {kAngleStep, 0.0}), offset_source(source, {0.0, kAngleStep})}, kAngleStep};
-  return motion_by(changes, steps, ghost, source, windows);
-}
-
-GhostMotion ghost_motion_in_time(const LensSteps& steps, Ghost ghost, const LightSource& source,
-                                 const LightWindows& windows, const LaterRays& later) {
-  return motion_by({{later.steps, steps}, {later.source, source}, later.after}, steps, ghost, source, windows);
 }
 
 }  // namespace contrejour::inline internal::area

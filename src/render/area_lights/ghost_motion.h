@@ -40,16 +40,4 @@ struct GhostMotion {
 [[nodiscard]] GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource& source,
                                        const LightWindows& windows);
 
-// The lens and the light at a later time.
-struct LaterRays {
-  const LensSteps& steps;  // at the same wavelength, of a lens with the same surfaces
-  LightSource source;
-  double after = 0.0;  // the time between, in any unit
-};
-
-// The same for time in place of the light's direction: shifts and rates have the unit of time as their first component,
-// and 0 as their second. The iris's outline counts as the same points of the stop when the iris opens or closes.
-[[nodiscard]] GhostMotion ghost_motion_in_time(const LensSteps& steps, Ghost ghost, const LightSource& source,
-                                               const LightWindows& windows, const LaterRays& later);
-
 }  // namespace contrejour::inline internal::area

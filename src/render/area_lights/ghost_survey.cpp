@@ -20,8 +20,7 @@ double middle_wavelength(const PlannedLight& light) { return light.passes[light.
 
 std::vector<DividedLight> whole_lights(std::span<const Light> lights) {
   std::vector<DividedLight> wholes;
-  for (std::size_t k = 0; k < lights.size(); ++k)
-    wholes.push_back({k, 1, PieceBlur::OwnShape, pieces_of(lights[k]), {}});
+  for (std::size_t k = 0; k < lights.size(); ++k) wholes.push_back({k, 1, pieces_of(lights[k]), {}});
   return wholes;
 }
 
@@ -75,8 +74,7 @@ GhostBlur GhostSurvey::blur(const DividedLight& light, const PieceGhostIndex& in
 
 Result<std::vector<DividedLight>> GhostSurvey::cut(const std::set<Cut>& wanted) const {
   std::vector<DividedLight> divided;
-  for (const auto& [light, across] : wanted)
-    divided.push_back({light, across, PieceBlur::Soft, pieces_of(lights_[light], across), {}});
+  for (const auto& [light, across] : wanted) divided.push_back({light, across, pieces_of(lights_[light], across), {}});
   auto planned = plan_more_lights(plan_, lens_, points_of(divided), settings_, context_);
   if (!planned) return tl::unexpected(planned.error());
   auto next = planned->begin();
@@ -203,62 +201,6 @@ Result<SurveyedFrame> GhostSurvey::of(std::vector<DividedLight> wholes) const {
   if (!lights) return tl::unexpected(lights.error());
   if (context_.cancelled()) return interrupted();
   return SurveyedFrame{std::move(*lights), budget.peak};
-}
-
-// By light, then by ghost. unit: of time, in the motion's.
-std::vector<GhostMotion> GhostSurvey::motions_in_time(const FrameMotion& motion, double unit) const {
-  const StepsByWavelength later_steps(motion.lens, plan_.tables);
-  std::vector<LightWindows> windows;
-  for (const PlannedLight& planned : plan_.lights) windows.emplace_back(lens_, planned.source);
-  std::vector<GhostMotion> found(plan_.lights.size() * plan_.ghosts.size());
-  parallel_for(found.size(), context_, [&](std::size_t k) {
-    const std::size_t light = k / plan_.ghosts.size();
-    const PlannedLight& planned = plan_.lights[light];
-    if (planned.passes.empty()) return;
-    const double lambda_nm = middle_wavelength(planned);
-    const LaterRays later{later_steps.at(lambda_nm), motion.lights[light].source(), motion.after / unit};
-    found[k] = ghost_motion_in_time(steps_.at(lambda_nm), plan_.ghosts[k % plan_.ghosts.size()], planned.source,
-                                    windows[light], later);
-  });
-  return found;
-}
-
-namespace {
-
-// The standard deviation of a window's times about the moment.
-double deviation_of(const TimeWindow& window) {
-  constexpr int kTimes = 256;
-  double squares = 0.0, sum = 0.0;
-  for (int k = 0; k < kTimes; ++k) {
-    const double time = std::lerp(window.rise_from, window.fall_to, (k + 0.5) / kTimes);
-    const double weight = weight_at(window, time);
-    squares += weight * time * time;
-    sum += weight;
-  }
-  return std::sqrt(squares / sum);
-}
-
-}  // namespace
-
-Result<SurveyedFrame> GhostSurvey::over_time(const FrameMotion& motion) const {
-  const std::vector<GhostMotion> found = motions_in_time(motion, deviation_of(motion.window));
-  if (context_.cancelled()) return interrupted();
-  const std::size_t count = plan_.ghosts.size();
-  SurveyedFrame surveyed;
-  std::vector<GhostBlur> all;
-  for (std::size_t k = 0; k < plan_.lights.size(); ++k) {
-    SurveyedLight& light = surveyed.lights.emplace_back();
-    light.parts = {k, 1, PieceBlur::Soft, {soft_piece()}, {plan_.lights[k]}};
-    light.light_fractions.assign(count, 1.0);
-    for (std::size_t g = 0; g < count; ++g) {
-      light.ghosts.push_back(g);
-      light.wholes.push_back(blur(light.parts, {k, 0, g}, found[k * count + g]));
-    }
-    light.blurs.push_back(light.wholes);
-    all.insert(all.end(), light.wholes.begin(), light.wholes.end());
-  }
-  surveyed.peak = peak_of(all, settings_.frame);
-  return surveyed;
 }
 
 }  // namespace contrejour::inline internal::area

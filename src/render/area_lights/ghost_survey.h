@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "contrejour/expert/frame_motion.h"
 #include "contrejour/frame_settings.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/area_lights/piece_choice.h"
@@ -18,16 +17,11 @@
 
 namespace contrejour::inline internal::area {
 
-// What a piece's ghosts are blurred by: the light's own shape; or soft_piece(), for pieces of a light, and for parts of
-// an exposure, that fade into their neighbours and so have no visible shape.
-enum class PieceBlur { OwnShape, Soft };
-
 // A light divided into `across` pieces along its longer side.
 struct DividedLight {
   std::size_t light = 0;
   int across = 1;
-  PieceBlur blur = PieceBlur::OwnShape;
-  std::vector<LightPiece> pieces;  // a point light has one, without samples
+  std::vector<LightPiece> pieces;     // a point light has one, without samples
   std::vector<PlannedLight> planned;  // one a piece
 };
 
@@ -57,9 +51,6 @@ class GhostSurvey {
   // wholes: whole_lights() with their plans. Errors: Cancelled.
   [[nodiscard]] Result<SurveyedFrame> of(std::vector<DividedLight> wholes) const;
 
-  // The same for points of light that move with the lens. Errors: Cancelled.
-  [[nodiscard]] Result<SurveyedFrame> over_time(const FrameMotion& motion) const;
-
  private:
   using Cut = std::pair<std::size_t, int>;  // a light, and its pieces across
   struct PieceGhostIndex {  // a ghost of a piece
@@ -67,7 +58,6 @@ class GhostSurvey {
   };
   [[nodiscard]] std::vector<GhostMotion> motions(std::span<const DividedLight> lights,
                                                  std::span<const PieceGhostIndex> indices) const;
-  [[nodiscard]] std::vector<GhostMotion> motions_in_time(const FrameMotion& motion, double unit) const;
   [[nodiscard]] GhostBlur blur(const DividedLight& light, const PieceGhostIndex& index,
                                const GhostMotion& motion) const;
   [[nodiscard]] double value_of(const PlannedLight& light, std::size_t ghost) const;

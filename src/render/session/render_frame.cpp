@@ -2,7 +2,6 @@
 #include "render/session/render_frame.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "render/area_lights/area_render.h"
 #include "render/device/kept_device.h"
 #include "render/session/registry.h"
-#include "render/session/streaked_lights.h"
 #include "render/starburst/starburst_pass.h"
 
 namespace contrejour::inline internal {
@@ -30,9 +28,7 @@ Context part_of(const Context& whole, double from, double to) {
   return part;
 }
 
-Result<GhostImages> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, const FrameMotion* motion,
-                                  const Context& context) {
-  if (motion != nullptr) return render_moving(draw, frame, *motion, context);
+Result<GhostImages> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool points = std::ranges::all_of(frame.lights, [](const Light& light) { return light.is_point(); });
   return (points ? render_planned : render_areas)(draw, frame, context);
 }
@@ -45,26 +41,17 @@ std::span<const Light> imaged_lights(const FrameRequest& frame) {
 }
 
 // The frame with the lights that have images of their own.
-FrameRequest with_lights(const FrameRequest& frame, std::span<const Light> lights) {
-  return {frame.lens, lights, frame.settings, frame.cache, frame.layers};
+FrameRequest with_imaged_lights(const FrameRequest& frame) {
+  return {frame.lens, imaged_lights(frame), frame.settings, frame.cache, frame.layers};
 }
 
-// The lights as their own images show them: those that move are streaks.
-std::vector<Light> lights_for_images(const FrameRequest& frame, const FrameMotion* motion) {
-  const std::span<const Light> imaged = imaged_lights(frame);
-  if (motion != nullptr) return streaked_lights(frame.lens, imaged, frame.lights, *motion);
-  return {imaged.begin(), imaged.end()};
-}
-
-Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const FrameMotion* motion,
-                           const Context& context) {
+Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool adds = adds_lights(frame.settings);
-  auto ghosts = render_ghosts(draw, frame, motion, adds ? part_of(context, 0.0, kGhostsFraction) : context);
+  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
   if (!ghosts) return tl::unexpected(ghosts.error());
   Flare flare{std::move(ghosts->image), std::move(ghosts->statistics)};
   if (!adds) return flare;
-  const std::vector<Light> imaged = lights_for_images(frame, motion);
-  const auto added = add_light_images(flare.image, flare.statistics, with_lights(frame, imaged),
+  const auto added = add_light_images(flare.image, flare.statistics, with_imaged_lights(frame),
                                       part_of(context, kGhostsFraction, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
@@ -93,11 +80,10 @@ void add(FlareLayer& layer, Image image) {
 }
 
 Result<void> add_lights_to(LayeredFlare& flare, const LayerMap& map, const FrameRequest& frame,
-                           const FrameMotion* motion, const Context& context) {
+                           const Context& context) {
   const std::vector<std::size_t> by_light =
       map.is_by_light() ? layers_of_images(map, frame) : std::vector<std::size_t>();
-  const std::vector<Light> imaged = lights_for_images(frame, motion);
-  auto images = draw_light_images(flare.statistics, with_lights(frame, imaged), by_light, context);
+  auto images = draw_light_images(flare.statistics, with_imaged_lights(frame), by_light, context);
   if (!images) return tl::unexpected(images.error());
   if (map.is_by_light()) {
     for (std::size_t k = 0; k < images->starburst.size(); ++k) add(flare.layers[k], std::move(images->starburst[k]));
@@ -123,10 +109,9 @@ Image sum_of(std::span<const FlareLayer> layers, const Frame& frame, const Conte
   return sum;
 }
 
-Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame, const FrameMotion* motion,
-                                 const Context& context) {
+Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool adds = adds_lights(frame.settings);
-  auto ghosts = render_ghosts(draw, frame, motion, adds ? part_of(context, 0.0, kGhostsFraction) : context);
+  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
   if (!ghosts) return tl::unexpected(ghosts.error());
   LayeredFlare flare;
   flare.statistics = std::move(ghosts->statistics);
@@ -136,7 +121,7 @@ Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame
     flare.layers.push_back({map.names()[k], std::move(drawn.image), drawn.left, drawn.top});
   }
   if (adds)
-    if (const auto ok = add_lights_to(flare, map, frame, motion, part_of(context, kGhostsFraction, 1.0)); !ok)
+    if (const auto ok = add_lights_to(flare, map, frame, part_of(context, kGhostsFraction, 1.0)); !ok)
       return tl::unexpected(ok.error());
   Context quiet = context;
   quiet.progress = {};
@@ -144,31 +129,8 @@ Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame
   return flare;
 }
 
-Result<void> check_motion(const FrameRequest& frame, const FrameMotion& motion) {
-  if (motion.lights.size() != frame.lights.size())
-    return failure(ErrorCode::InvalidArgument, fmt::format("a frame of {} lights cannot move to {} lights; give each "
-                                                           "light its place at the later moment, in the same order",
-                                                           frame.lights.size(), motion.lights.size()));
-  for (const Light& light : frame.lights)
-    if (!light.is_point())
-      return failure(ErrorCode::InvalidArgument,
-                     "a light with a size cannot be blurred by the motion of the lens; draw sharp frames instead, and "
-                     "take their mean");
-  if (motion.lens.surfaces.size() != frame.lens.surfaces.size() || !(motion.after > 0.0))
-    return failure(ErrorCode::InvalidArgument,
-                   "the lens of the later moment has to be the frame's lens with other settings, at a time above 0");
-  const TimeWindow& window = motion.window;
-  const bool is_in_order = window.rise_from <= window.full_from && window.full_from <= window.full_to &&
-                           window.full_to <= window.fall_to && window.rise_from < window.fall_to;
-  if (!is_in_order || !std::isfinite(window.fall_to - window.rise_from))
-    return failure(ErrorCode::InvalidArgument, "the times of a frame's mean have to be finite and in rising order");
-  return check_lens(motion.lens);
-}
-
-Result<DrawPlan> checked(const MethodOptions& method, const FrameRequest& frame, const FrameMotion* motion) {
+Result<DrawPlan> checked(const MethodOptions& method, const FrameRequest& frame) {
   if (auto good = check_lens(frame.lens); !good) return tl::unexpected(good.error());
-  if (motion != nullptr)
-    if (auto good = check_motion(frame, *motion); !good) return tl::unexpected(good.error());
   const auto known = known_method(method.name());
   if (!known) return tl::unexpected(known.error());
   if (adds_lights(frame.settings))
@@ -191,12 +153,11 @@ void note_device(RenderStatistics& statistics, const RenderCache& cache) {
 
 }  // namespace
 
-Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame, const Context& context,
-                           const FrameMotion* motion) {
-  const auto draw = checked(method, frame, motion);
+Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame, const Context& context) {
+  const auto draw = checked(method, frame);
   if (!draw) return tl::unexpected(draw.error());
   begin_on_device(frame.cache);
-  auto flare = render_whole(*draw, frame, motion, context);
+  auto flare = render_whole(*draw, frame, context);
   if (context.cancelled()) return interrupted();  // some of its loops may have stopped early
   if (flare) {
     flare->statistics.peak_memory_bytes = peak_memory_bytes();
@@ -205,12 +166,12 @@ Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& fram
   return flare;
 }
 
-Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame, const Context& context,
-                                         const FrameMotion* motion) {
-  const auto draw = checked(method, frame, motion);
+Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame,
+                                         const Context& context) {
+  const auto draw = checked(method, frame);
   if (!draw) return tl::unexpected(draw.error());
   begin_on_device(frame.cache);
-  auto flare = draw_layers(*draw, frame, motion, context);
+  auto flare = draw_layers(*draw, frame, context);
   if (context.cancelled()) return interrupted();
   if (flare) {
     flare->statistics.peak_memory_bytes = peak_memory_bytes();

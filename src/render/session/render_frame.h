@@ -3,19 +3,18 @@
 // images.
 #pragma once
 
-#include "contrejour/expert/frame_motion.h"
 #include "contrejour/method_options.h"
 #include "render/planning/frame_plan.h"
 
 namespace contrejour::inline internal {
 
 // The result does not depend on what the cache holds. Errors: InvalidArgument, Cancelled, as render(); the cache stays
-// usable. motion: null for a frame of one moment; see Renderer::set_motion.
-[[nodiscard]] Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame, const Context& context,
-                                         const FrameMotion* motion = nullptr);
+// usable.
+[[nodiscard]] Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& frame,
+                                         const Context& context);
 
 // The same in layers, which the request names.
 [[nodiscard]] Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame,
-                                                       const Context& context, const FrameMotion* motion = nullptr);
+                                                       const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -29,7 +29,6 @@ tl::unexpected<Error> no_lens() { return invalid_argument("a renderer has no len
 struct Renderer::State {
   MethodOptions method;
   std::optional<LensState> lens = std::nullopt;
-  std::optional<FrameMotion> motion = std::nullopt;
   RenderCache cache = {};
   std::pair<Device, std::string> device = {Device::Cpu, {}};
   std::string device_note = {};
@@ -37,14 +36,13 @@ struct Renderer::State {
   [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
                                      const FrameSettings& settings, const Context& context) {
     if (!lens) return no_lens();
-    return render_frame(by, {*lens, lights, settings, cache}, context, motion ? &*motion : nullptr);
+    return render_frame(by, {*lens, lights, settings, cache}, context);
   }
 
   [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,
                                                    const LayerOptions& options, const Context& context) {
     if (!lens) return no_lens();
-    return render_frame_layers(method, {*lens, lights, settings, cache, &options}, context,
-                               motion ? &*motion : nullptr);
+    return render_frame_layers(method, {*lens, lights, settings, cache, &options}, context);
   }
 
   // Writes a flare to the caller's image; its memory then serves the next frame.
@@ -93,8 +91,6 @@ Result<void> Renderer::set_lens(LensState lens) {
   state_->lens = std::move(lens);
   return {};
 }
-
-void Renderer::set_motion(std::optional<FrameMotion> motion) { state_->motion = std::move(motion); }
 
 Result<void> Renderer::set_method(MethodOptions method) {
   if (const auto known = known_method(method.name()); !known) return tl::unexpected(known.error());

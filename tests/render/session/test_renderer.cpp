@@ -124,31 +124,6 @@ TEST_CASE("a session ranks its ghosts as a frame by itself does, whatever change
   }
 }
 
-TEST_CASE("a frame with a motion is blurred, the one after it sharp again; what does not fit is refused") {
-  const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35});
-  Renderer session = renderer_of(AdaptiveOptions{});
-  REQUIRE(session.set_lens(f.lens).has_value());
-  const auto drawn = [&](std::span<const Light> lights) { return session.render(lights, f.settings); };
-  const auto sharp = drawn(f.lights);
-  FrameMotion motion{bundled("heliar", {.f_number = 9.0}), f.lights, 0.1, {}};
-  session.set_motion(motion);
-  const auto blurred = drawn(f.lights);
-  REQUIRE(blurred.has_value());
-  CHECK(blurred->image.pixels != sharp->image.pixels);
-  std::vector<Light> two(2, f.lights.front());
-  CHECK(!drawn(two).has_value());
-  two.pop_back();
-  two.front().radius_rad = 0.01;
-  CHECK(!drawn(two).has_value());
-  motion.window = {1.0, 0.0, 0.0, 1.0};
-  session.set_motion(motion);
-  CHECK(!drawn(f.lights).has_value());
-  session.set_motion(FrameMotion{bundled("tessar"), f.lights, 0.1, {}});
-  CHECK(!drawn(f.lights).has_value());
-  session.set_motion(std::nullopt);
-  CHECK(drawn(f.lights)->image.pixels == sharp->image.pixels);
-}
-
 TEST_CASE("a draft comes first, near to the frame, and leaves no trace") {
   const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35}, 120);
   Renderer session = renderer_of(AdaptiveOptions{});
