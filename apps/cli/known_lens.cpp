@@ -35,6 +35,11 @@ Result<KnownLens> open_known_lens(const KnownLensOptions& options) {
   if (!lens) return tl::unexpected(lens.error());
   const auto settings = params::lens_settings(options.values);
   if (!settings) return tl::unexpected(settings.error());
+  const auto state = params::lens_of(*lens, options.values);
+  if (!state) return tl::unexpected(state.error());
+  print_warnings(state->warnings);
+  lens->sensor_width_mm = state->sensor_width_mm;  // of --sensor
+  lens->sensor_height_mm = state->sensor_height_mm;
   auto merged = open_merged(options.folder);
   if (!merged) return tl::unexpected(merged.error());
   const auto geometry = geometry_of(*merged, options.folder);

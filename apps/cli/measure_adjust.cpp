@@ -22,7 +22,7 @@ constexpr const char* kAdjustExamples =
     "little beyond its tolerance is marked open.\n\n"
     "Examples:\n"
     "  contrejour measure adjust tessar merged -o adjusted.toml\n"
-    "  contrejour measure adjust tessar merged -o adjusted.toml --tilt 0.05 --decentre 0.02 --gap 0 --json";
+    "  contrejour measure adjust tessar merged -o adjusted.toml --tilt-tolerance 0.05 --gap-tolerance 0 --json";
 
 struct AdjustCommand {
   KnownLensOptions known;
@@ -111,12 +111,12 @@ void add_measure_adjust(CLI::App& measure, Action& action) {
   CLI::App* command = measure.add_subcommand("adjust", "learn a known lens's tilts, spaces and focus from its ghosts");
   add_known_lens(*command, options->known);
   LensTolerances& of = options->fit.tolerances;
-  add_tolerance(*command, "--tilt", options->tilt_deg, "DEG", "each element's tilt");
-  add_tolerance(*command, "--decentre", of.decentre_mm, "MM", "each element's decentre");
-  add_tolerance(*command, "--gap", of.gap_mm, "MM", "each air space");
-  add_tolerance(*command, "--sensor-shift", of.focus_mm, "MM", "the sensor's distance");
-  add_tolerance(*command, "--stop-radius", of.stop_radius, "PART", "the stop's radius, relative");
-  add_tolerance(*command, "--stop-shift", of.stop_position_mm, "MM", "the stop's position");
+  add_tolerance(*command, "--tilt-tolerance", options->tilt_deg, "DEG", "each element's tilt");
+  add_tolerance(*command, "--decentre-tolerance", of.decentre_mm, "MM", "each element's decentre");
+  add_tolerance(*command, "--gap-tolerance", of.gap_mm, "MM", "each air space");
+  add_tolerance(*command, "--focus-tolerance", of.focus_mm, "MM", "the sensor's distance");
+  add_tolerance(*command, "--stop-radius-tolerance", of.stop_radius, "PART", "the stop's radius, relative");
+  add_tolerance(*command, "--stop-shift-tolerance", of.stop_position_mm, "MM", "the stop's position");
   add_number(*command, "--max-ghosts", options->fit.max_ghosts, 1, 200, "ghosts to measure, the brightest");
   add_number(*command, "--width", options->fit.max_width, 32, 2000, "pixels that pictures are reduced to");
   add_number(*command, "--iterations", options->fit.max_iterations, 1, 100, "in each of the resolutions");

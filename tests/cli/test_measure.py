@@ -419,7 +419,7 @@ class Fit(ProgramTest):
         self.assertTrue(done["warnings"])
         self.assertIn("measured_nm", (self.folder / "learnt.toml").read_text())
         self.run_program("lens", "info", "learnt.toml")
-        kept = ["--gap", "0", "--tilt", "0", "--decentre", "0", "--stop-shift", "0"]
+        kept = [f"--{name}-tolerance=0" for name in ("gap", "tilt", "decentre", "stop-shift")]
         done = self.run_program("measure", "adjust", "tessar", merged, "-o", "adjusted.toml", "--width", "80", *kept,
                                 "--max-ghosts", "2", "--iterations", "1", "--json")
         self.assertEqual([n["name"] for n in json.loads(done.stdout)["numbers"]], ["distance of the sensor", "radius of the stop"])
