@@ -18,13 +18,13 @@ namespace contrejour::inline internal::polynomial {
 namespace {
 
 using published::AnnealingOptions;
-using AnnealingState = published::DenseFit::AnnealingState;
+using State = published::DenseFit::State;
 
 constexpr int kCurvePoints = 400;
 
 class Annealing {
  public:
-  Annealing(const AnnealingState& state, const AnnealingOptions& options)
+  Annealing(const State& state, const AnnealingOptions& options)
       : state_(state), options_(options), random_(options.seed), terms_(state.terms.size()) {
     std::iota(terms_.begin(), terms_.end(), 0);
     for (std::size_t k = 0; k < chosen_count(); ++k) std::swap(terms_[k], terms_[k + random_.below(terms_.size() - k)]);
@@ -107,7 +107,7 @@ class Annealing {
     return std::sqrt((values - matrix * coefficients).squaredNorm() / static_cast<double>(rows));
   }
 
-  const AnnealingState& state_;
+  const State& state_;
   const AnnealingOptions& options_;
   SeededRandom random_;
   std::vector<int> terms_;  // those chosen come first
@@ -117,7 +117,7 @@ class Annealing {
   double error_ = 0.0, best_ = 0.0;
 };
 
-Result<void> check_options(const AnnealingState& state, const AnnealingOptions& options) {
+Result<void> check_options(const State& state, const AnnealingOptions& options) {
   const int terms = static_cast<int>(state.terms.size());
   if (options.terms < 1 || options.terms >= terms)
     return failure(ErrorCode::InvalidArgument, fmt::format("annealing chooses 1 to {} terms", terms - 1));
@@ -134,7 +134,7 @@ Result<void> check_options(const AnnealingState& state, const AnnealingOptions& 
 namespace contrejour::published {
 
 Result<SparseFit> anneal(const DenseFit& dense, const AnnealingOptions& options, const Context& context) {
-  const DenseFit::AnnealingState& state = dense.state();
+  const DenseFit::State& state = dense.state();
   if (const auto good = polynomial::check_options(state, options); !good) return tl::unexpected(good.error());
   const polynomial::Stopwatch watch;
   polynomial::Annealing annealing(state, options);
