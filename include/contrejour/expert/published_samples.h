@@ -48,8 +48,8 @@ struct RaySamples {
   std::vector<Inputs> inputs;
   std::vector<Vec2> sensor;
 
-  [[nodiscard]] Samples x() const;
-  [[nodiscard]] Samples y() const;
+  [[nodiscard]] CONTREJOUR_API Samples x() const;
+  [[nodiscard]] CONTREJOUR_API Samples y() const;
 };
 
 // The rays that arrive of a regular grid of side^4, from -1 on in steps of 2 / side.

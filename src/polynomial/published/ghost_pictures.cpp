@@ -28,7 +28,7 @@ std::vector<DrawnGhost> drawn_ghosts(const LensState& lens, const PictureOptions
   const std::vector<Ghost> ghosts = enumerate_ghosts(lens, GhostScope::OneSideOfStop);
   std::vector<std::optional<Rectangle>> openings(ghosts.size());
   parallel_for(ghosts.size(), {context.threads, context.cancel, {}}, [&](std::size_t k) {
-    openings[k] = FittedGhost(lens, ghosts[k], options.lambda_nm).opening(options.light);
+    openings[k] = GhostToFit(lens, ghosts[k], options.lambda_nm).opening(options.light);
   });
   std::vector<DrawnGhost> drawn;
   for (std::size_t k = 0; k < ghosts.size(); ++k)
@@ -108,7 +108,7 @@ class FittedOutputs {
     const Vec2 centre = options.faults.extrapolated ? Vec2{} : options.light;
     const Vec2 light = (options.light - centre) * (1.0 / options.half_range);
     Outputs outputs;
-    for (const published::Samples& samples : FittedGhost(lens, ghost, options.lambda_nm).samples(options, centre)) {
+    for (const published::Samples& samples : GhostToFit(lens, ghost, options.lambda_nm).samples(options, centre)) {
       const auto dense = published::DenseFit::fit(samples, options.degree);
       if (!dense) return {};  // too few rays take this path
       outputs.emplace_back(dense->polynomial(), light);
@@ -149,7 +149,7 @@ Result<Image> draw_traced_ghosts(const LensState& lens, const PictureOptions& op
   polynomial::SplatTarget target = polynomial::target_for(lens, options);
   const polynomial::SplatPoints points{options.points, options.random_points, options.seed};
   for (const auto& drawn : polynomial::drawn_ghosts(lens, options, context)) {
-    const polynomial::FittedGhost ghost(lens, drawn.ghost, options.lambda_nm);
+    const polynomial::GhostToFit ghost(lens, drawn.ghost, options.lambda_nm);
     const auto ray = [&](Vec2 unit) -> std::optional<polynomial::SplatRay> {
       const TracedRay traced = ghost.trace_at(options.light, polynomial::point_in(drawn.box, unit));
       if (!ghost.passes(traced)) return std::nullopt;
@@ -172,7 +172,7 @@ Result<Image> draw_fitted_ghosts(const LensState& lens, const PictureOptions& op
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     const auto &x = fitted.of(read[k].x_of), &y = fitted.of(read[k].y_of), &stop = fitted.of(read[k].stop_of);
     if (x.empty() || y.empty() || stop.empty()) continue;
-    const polynomial::FittedGhost ghost(lens, drawn[k].ghost, options.lambda_nm);
+    const polynomial::GhostToFit ghost(lens, drawn[k].ghost, options.lambda_nm);
     const auto ray = [&](Vec2 unit) -> std::optional<polynomial::SplatRay> {
       const Vec2 at = ghost.normalised(polynomial::point_in(drawn[k].box, unit));
       if (!options.faults.no_stop_position && iris_distance(lens.iris, {stop[2].at(at), stop[3].at(at)}) > 0.0)

@@ -25,19 +25,19 @@ bool nearly_passes(const TracedRay& ray, int crossings) {
 
 }  // namespace
 
-Vec2 FittedGhost::normalised(Vec2 entrance_mm) const {
+Vec2 GhostToFit::normalised(Vec2 entrance_mm) const {
   return entrance_mm * (1.0 / (kInputScale * lens_.surfaces.front().semi_diameter_mm));
 }
 
-TracedRay FittedGhost::trace_at(Vec2 light, Vec2 entrance_mm) const {
+TracedRay GhostToFit::trace_at(Vec2 light, Vec2 entrance_mm) const {
   return trace(path_, {{entrance_mm.x, entrance_mm.y, 0.0}, direction_of(light)});
 }
 
-bool FittedGhost::passes(const TracedRay& ray) const {
+bool GhostToFit::passes(const TracedRay& ray) const {
   return ray.status == RayStatus::Ok && blocked_by(ray, path_, lens_.iris) <= 0.0;
 }
 
-std::optional<Rectangle> FittedGhost::opening(Vec2 light) const {
+std::optional<Rectangle> GhostToFit::opening(Vec2 light) const {
   const double half_mm = 1.5 * lens_.surfaces.front().semi_diameter_mm;
   const auto coordinate = [&](int k) { return ((k + 0.5) / kOpeningGrid * 2.0 - 1.0) * half_mm; };
   std::optional<Rectangle> box;
@@ -52,7 +52,7 @@ std::optional<Rectangle> FittedGhost::opening(Vec2 light) const {
   return Rectangle{box->low - Vec2{step_mm, step_mm}, box->high + Vec2{step_mm, step_mm}};
 }
 
-std::array<published::Samples, 5> FittedGhost::samples(const published::PictureOptions& options, Vec2 light) const {
+std::array<published::Samples, 5> GhostToFit::samples(const published::PictureOptions& options, Vec2 light) const {
   std::array<published::Samples, 5> all;
   const auto found = opening(light);
   if (!found) return all;

@@ -13,9 +13,9 @@
 
 namespace contrejour::inline internal::polynomial {
 
-class FittedGhost {
+class GhostToFit {
  public:
-  FittedGhost(const LensState& lens, const Ghost& ghost, double lambda_nm)
+  GhostToFit(const LensState& lens, const Ghost& ghost, double lambda_nm)
       : lens_(lens), path_(ghost_path(lens, ghost, lambda_nm)) {}
 
   // The rectangle of the plane z = 0 that holds the rays of a light that nothing blocks; none without any.
