@@ -52,7 +52,7 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   const EntranceWindow window = entrance_window(from_.lens, pupil.meridian.light);
   pupil.plane_z_mm = window.z_mm;
 
-  const auto region = from_table ? from_.bounds->find(ghost, pupil.meridian.angle_rad()) : search(pupil, window);
+  const auto region = from_table ? from_.bounds->find(ghost, pupil.meridian.angle_rad()) : search(ghost, pupil, window);
   if (!region) return std::nullopt;
   pupil.region = *region;
   count_rays(region->rays, pupil.path);
@@ -63,12 +63,17 @@ std::optional<GhostPupil> GhostGrid::find(Ghost ghost, const LightSource& light,
   return pupil;
 }
 
-std::optional<pupils::PupilRegion> GhostGrid::search(const GhostPupil& pupil, const EntranceWindow& window) {
+std::optional<pupils::PupilRegion> GhostGrid::search(Ghost ghost, const GhostPupil& pupil,
+                                                     const EntranceWindow& window) {
   using pupils::PupilEffort;
   const PupilEffort effort =
       from_.options.grid_levels ? PupilEffort::Finest : pupils::effort_for_grid(from_.options.grid.rays);
-  pupils::PupilRays rays(pupil.path, tables_of(pupil), pupil.meridian.light, IrisShape(pupil.iris), window);
-  return pupils::region_of(find_pupil(rays, {.effort = effort}, rays_));
+  const LightSource& light = pupil.meridian.light;
+  return pupils::region_of(
+      from_.kept.find_window_pupil({ghost, light, pupil.lambda_nm, pupil.path.stop_radius_mm, pupil.iris, effort}, [&] {
+        pupils::PupilRays rays(pupil.path, tables_of(pupil), light, IrisShape(pupil.iris), window);
+        return find_pupil(rays, {.effort = effort}, rays_);
+      }));
 }
 
 MapFigures GhostGrid::figures_of(const GhostPupil& pupil) {

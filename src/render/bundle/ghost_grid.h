@@ -10,6 +10,7 @@
 #include "ghosts/meridian.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/bundle/map_figures.h"
+#include "render/pupils/kept_pupils.h"
 #include "render/pupils/pupil_bounds.h"
 #include "render/stop_patterns/stop_transmittances.h"
 
@@ -40,6 +41,7 @@ struct GridSource {
   const BundleOptions& options;
   const TablesByWavelength& tables;
   const StopTransmittances& stops;
+  pupils::KeptPupils& kept;
   const pupils::PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
 };
 
@@ -68,7 +70,8 @@ class GhostGrid {
   // The mirror image may be used only for a lens with axial symmetry.
   [[nodiscard]] bool mirrors() const { return from_.options.mirror_symmetry && from_.lens.has_axial_symmetry(); }
   [[nodiscard]] const ReflectanceTables& tables_of(const GhostPupil& pupil) const;
-  [[nodiscard]] std::optional<pupils::PupilRegion> search(const GhostPupil& pupil, const EntranceWindow& window);
+  [[nodiscard]] std::optional<pupils::PupilRegion> search(Ghost ghost, const GhostPupil& pupil,
+                                                          const EntranceWindow& window);
   [[nodiscard]] MapFigures figures_of(const GhostPupil& pupil);
   [[nodiscard]] int side_of(const GhostPupil& pupil) const;
   void count_rays(std::uint64_t rays, const OpticalPath& path);

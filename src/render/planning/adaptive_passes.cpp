@@ -6,7 +6,7 @@
 
 #include "base/tasks.h"
 #include "contrejour/expert/trace.h"
-#include "render/pupils/pupil_search.h"
+#include "render/pupils/kept_pupils.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal {
@@ -76,9 +76,12 @@ class GhostProbe {
   [[nodiscard]] std::optional<Rectangle> pupil() const {
     for (const PlannedPass* pass :
          {&light_.passes[light_.passes.size() / 2], &light_.passes.front(), &light_.passes.back()}) {
-      const pupils::PupilRays rays(ghost_path(lens_, ghost_, pass->lambda_nm), plan_.tables.at(pass->lambda_nm),
-                                   light_.source, iris_, window_);
-      const pupils::Pupil found = find_pupil(rays, {});
+      const OpticalPath path = ghost_path(lens_, ghost_, pass->lambda_nm);
+      const pupils::Pupil found = plan_.kept_pupils->find_window_pupil(
+          {ghost_, light_.source, pass->lambda_nm, path.stop_radius_mm, Iris{}}, [&] {
+            return find_pupil(pupils::PupilRays(path, plan_.tables.at(pass->lambda_nm), light_.source, iris_, window_),
+                              {});
+          });
       if (!found.is_empty()) return found.box();
     }
     return std::nullopt;

@@ -5,14 +5,27 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <tuple>
 #include <vector>
 
 #include "base/number_key.h"
 #include "base/recently_used.h"
+#include "contrejour/expert/iris.h"
 #include "render/pupils/ghost_pupil.h"
+#include "render/pupils/pupil_search.h"
 
 namespace contrejour::inline internal::pupils {
+
+// What a search over the whole window (pupil_search.h) depends on besides the lens.
+struct WindowSearch {
+  Ghost ghost;
+  const LightSource& light;
+  double lambda_nm = 0.0;
+  double stop_radius_mm = 0.0;  // that of the path
+  const Iris& iris;
+  PupilEffort effort = PupilEffort::Finest;
+};
 
 class KeptPupils {
  public:
@@ -38,6 +51,9 @@ class KeptPupils {
   // boxes: those of the same request with the stop's own radius.
   [[nodiscard]] GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes);
 
+  // The pupil over a window, that of an earlier frame or of `search`. Those of an iris that is a picture are not kept.
+  [[nodiscard]] Pupil find_window_pupil(const WindowSearch& of, const std::function<Pupil()>& search);
+
   void next_frame() { pupils_.next_frame(); }
   [[nodiscard]] std::size_t memory_bytes() const { return pupils_.bytes(); }
 
@@ -45,14 +61,15 @@ class KeptPupils {
   static constexpr std::size_t kMaxBytes = std::size_t{32} << 20U;  // 100 000 pupils
   static constexpr std::size_t kEntryBytes = 256;  // about what a key and the map's node take
 
-  enum class Stage : std::uint8_t { Searched, Fitted, Refitted };
+  enum class Stage : std::uint8_t { Searched, Fitted, Refitted, OverWindow };
   using PupilKey = std::tuple<Stage, Ghost, NumberKey>;  // of the light, the wavelengths and the stop
   [[nodiscard]] static PupilKey key_of(const PupilRequest& request, Stage stage);
+  [[nodiscard]] static PupilKey key_of(const WindowSearch& of);
   // The kept pupil, or that of make(), which is then kept.
   template <class Make>
   [[nodiscard]] GhostPupil get(const PupilRequest& request, Stage stage, const Make& make);
 
-  RecentlyUsed<PupilKey, std::vector<Rectangle>> pupils_;
+  RecentlyUsed<PupilKey, std::vector<Rectangle>> pupils_;  // of a search over a window: the box, then sensor_mm
 };
 
 }  // namespace contrejour::inline internal::pupils

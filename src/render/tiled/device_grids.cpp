@@ -8,7 +8,7 @@
 #include "base/tasks.h"
 #include "render/device/device_frame.h"
 #include "render/planning/grid_side.h"
-#include "render/pupils/pupil_search.h"
+#include "render/pupils/kept_pupils.h"
 
 namespace contrejour::inline internal::tiled {
 namespace {
@@ -54,8 +54,10 @@ FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
   const ReflectanceTables& tables = from.plan.tables.at(item.pass.lambda_nm);
   const IrisShape iris(from.lens.iris);
   const EntranceWindow window = entrance_window(from.lens, light);
-  pupils::PupilRays rays(path, tables, light, iris, window);
-  const pupils::Pupil pupil = find_pupil(rays, {.effort = pupils::effort_for_grid(from.options.grid.rays)});
+  const pupils::PupilEffort effort = pupils::effort_for_grid(from.options.grid.rays);
+  const pupils::Pupil pupil = from.plan.kept_pupils->find_window_pupil(
+      {item.ghost, light, item.pass.lambda_nm, path.stop_radius_mm, from.lens.iris, effort},
+      [&] { return find_pupil(pupils::PupilRays(path, tables, light, iris, window), {.effort = effort}); });
   FoundGrid found;
   if (pupil.is_empty()) return found;
   const Rectangle box = pupil.box();

@@ -16,7 +16,7 @@
 #include "render/planning/grid_side.h"
 #include "render/planning/layer_images.h"
 #include "render/planning/statistics.h"
-#include "render/pupils/pupil_search.h"
+#include "render/pupils/kept_pupils.h"
 #include "render/stop_patterns/stop_transmittances.h"
 #include "render/tiled/device_grids.h"
 #include "render/tiled/primitive_builder.h"
@@ -113,6 +113,7 @@ struct Job {
   const TiledOptions& options;
   const Context& context;
   const TablesByWavelength& tables;
+  pupils::KeptPupils& kept;
   IrisShape iris;
   std::vector<Item> items;
   std::vector<tiled::Gain> gains;  // one for each item
@@ -152,9 +153,12 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
   };
 
   auto start = Clock::now();
-  pupils::PupilRays rays(path, tables, item.light, iris, window);
-  const pupils::Pupil pupil =
-      find_pupil(rays, {.effort = pupils::effort_for_grid(job.options.grid.rays)}, workspace.grid);
+  const pupils::PupilEffort effort = pupils::effort_for_grid(job.options.grid.rays);
+  const pupils::Pupil pupil = job.kept.find_window_pupil(
+      {item.ghost, item.light, item.lambda_nm, path.stop_radius_mm, stop.traced_iris(job.lens.iris), effort}, [&] {
+        pupils::PupilRays rays(path, tables, item.light, iris, window);
+        return find_pupil(rays, {.effort = effort}, workspace.grid);
+      });
   out.counts.search_ms = ms_since(start);
   if (pupil.is_empty()) return out;
   count_rays(pupil.rays);
@@ -242,7 +246,7 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
       part.progress = [&](double done) {
         context.progress(kTracingProgress * (static_cast<double>(layer) + done) / static_cast<double>(layer_count));
       };
-    Job job{lens, pixels, options, part, plan.tables, IrisShape(lens.iris), {}, {}};
+    Job job{lens, pixels, options, part, plan.tables, *plan.kept_pupils, IrisShape(lens.iris), {}, {}};
     list_items(plan, layer, stops, job);
     if (plan.layers && job.items.empty()) continue;
     images.set(layer, draw_items(job, stats));

@@ -264,6 +264,28 @@ TEST_CASE("what a standing light has in common with the frame before is not comp
   CHECK(second->statistics.rays < alone->statistics.rays);
 }
 
+TEST_CASE("grids of rays spread over the pupils that a session has searched for a light that stands still") {
+  for (const std::string_view name : {"bundle", "tiled"}) {
+    CAPTURE(name);
+    const MethodOptions method = quick_options(name);
+    SessionFrame f = frame_of("", bundled("tessar", {.f_number = 8.0, .iris = {.blades = 6}}), {0.45, 0.35});
+    Renderer session = renderer_of(method);
+    REQUIRE(session.set_lens(f.lens).has_value());
+    const auto first = session.render(f.lights, f.settings);
+    f.lights[0].value = {3.0, 2.0, 1.0};
+    const auto second = session.render(f.lights, f.settings);
+    const auto alone = render(method, f.lens, f.lights, f.settings);
+    REQUIRE((first && second && alone));
+    CHECK(second->image.pixels == alone->image.pixels);
+    CHECK(static_cast<double>(second->statistics.rays) < 0.5 * static_cast<double>(alone->statistics.rays));
+    f.lens.iris.rotation_rad += 0.3;  // of which the pupils' bounds are the same only for a round iris
+    REQUIRE(session.set_lens(f.lens).has_value());
+    const auto turned = session.render(f.lights, f.settings);
+    REQUIRE(turned.has_value());
+    CHECK(turned->image.pixels == render(method, f.lens, f.lights, f.settings)->image.pixels);
+  }
+}
+
 TEST_CASE("a session's memory does not grow with the number of frames") {
   SessionFrame f = frame_of("", bundled("tessar", {.f_number = 8.0}), {0.45, 0.35}, 30);
   f.settings.starburst.on = true;
