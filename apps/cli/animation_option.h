@@ -17,7 +17,7 @@ namespace contrejour::cli {
 
 void add_animation_option(CLI::App& command, std::string& file);
 
-// Where keys come from: a file of --lights, and the session whose frames are asked for. Either may be empty.
+// The files that keys come from: one of --lights, and the session whose frames are requested. Either may be empty.
 struct KeyFiles {
   std::string lights, session;
 };

@@ -42,24 +42,10 @@ svg { max-width: 100%; height: auto; }
 
 std::string page_text(const std::string& words) { return markup_text(printable(words, Lines::Keep)); }
 
-// RFC 4648.
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned group = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      group = group << 8U | (k + i < bytes.size() ? std::to_integer<unsigned>(bytes[k + i]) : 0U);
-    for (std::size_t i = 0; i < 4; ++i)
-      text += k + i <= bytes.size() ? kLetters[group >> (18U - 6U * static_cast<unsigned>(i)) & 63U] : '=';
-  }
-  return text;
-}
-
 Result<std::string> embedded(const Image& picture, double stops) {
   const auto png = preview_png(picture, {stops, true});
   if (!png) return tl::unexpected(png.error());
-  return "<img alt=\"\" src=\"data:image/png;base64," + base64(*png) + "\">\n";
+  return "<img alt=\"\" src=\"" + data_uri("image/png", *png) + "\">\n";
 }
 
 double angle_of(double s) { return std::atan(s) / params::kDegree_rad; }

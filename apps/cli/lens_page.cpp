@@ -67,30 +67,16 @@ std::string lower(std::string text) {
   return text;
 }
 
-// RFC 4648, section 4.
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      group = group << 8 | (i < count ? std::to_integer<std::uint32_t>(bytes[k + i]) : 0);
-    for (std::size_t i = 0; i < 4; ++i) out += i <= count ? kDigits[group >> (18 - 6 * i) & 63] : '=';
-  }
-  return out;
-}
-
 std::string card_html(const LensCard& card, std::size_t index) {
   std::string html = fmt::format(
       "<div class=\"card\" data-index=\"{}\" data-focal=\"{:.6g}\" data-fnumber=\"{:.6g}\" data-ghosts=\"{}\" "
       "data-flare=\"{:.6g}\" data-words=\"{}\">\n",
       index, card.focal_length_mm, card.f_number, card.ghosts, card.flare,
       markup_text(lower(card.id + " " + card.name + " " + card.source)));
-  html += "<img alt=\"flare\" src=\"data:image/png;base64," + base64(card.picture) + "\">\n";
+  html += "<img alt=\"flare\" src=\"" + data_uri("image/png", card.picture) + "\">\n";
   // The section is embedded as a picture, so that names of parts within its SVG do not collide with the page's.
-  html += "<img class=\"section\" alt=\"section\" src=\"data:image/svg+xml;base64," +
-          base64(std::as_bytes(std::span(card.section))) + "\">\n";
+  html += "<img class=\"section\" alt=\"section\" src=\"" +
+          data_uri("image/svg+xml", std::as_bytes(std::span(card.section))) + "\">\n";
   html += fmt::format(
       "<h2>{}</h2>\n<p>{} mm f/{:.3g}, {} surfaces, {} ghosts; flare {:.2g} of the light, shown {:+.1f} "
       "stops<br>{}<br>{}</p>\n</div>\n",

@@ -52,7 +52,8 @@ class CancelFlag {
   std::vector<std::atomic<bool>*> running_;
 };
 
-// What a call's keyword arguments say of it: a function of one number from 0 to 1 or None, and a flag or null.
+// The keyword arguments by which a call is followed and stopped: a function of one number from 0 to 1 or None, and a
+// flag or null.
 struct CallControls {
   py::object progress;
   CancelFlag* cancel = nullptr;

@@ -14,7 +14,7 @@ namespace contrejour::openfx {
 [[nodiscard]] const InteractSuite& interact_suite();
 [[nodiscard]] const DrawSuite& draw_suite();
 
-// Those of a host that acts as MLT does.
+// The suites of a host that acts as MLT does.
 [[nodiscard]] const void* mlt_suite(PropertySetHandle host, const char* name, int version);
 
 }  // namespace contrejour::openfx

@@ -110,7 +110,7 @@ void samples_from(const std::string& depth, const std::vector<std::byte>& pixels
   }
 }
 
-// What a frame passes to the actions.
+// The arguments that a frame passes to the actions.
 struct MltFrame {
   int width, height;
   double scale_x, scale_y, pixel_aspect, time;

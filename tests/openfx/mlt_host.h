@@ -48,7 +48,7 @@ class MltHost {
   MltHost(const MltHost&) = delete;
   MltHost& operator=(const MltHost&) = delete;
 
-  // What MLT's front ends offer to users: a parameter's kind by its name.
+  // The parameters that MLT's front ends offer to users: their kinds by name.
   struct Offered {
     std::string type, widget, fallback;
     bool is_normalised = false;  // of a point: the user drags it, and gets fractions of the picture

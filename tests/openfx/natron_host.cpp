@@ -35,7 +35,7 @@ void copy_parameters(const EffectStruct& from, EffectStruct& to) {
 HostOptions natron_options() {
   HostOptions options;
   options.name = "fr.inria.Natron";
-  // Those of HostSupport's lists that this plug-in could meet.
+  // The part of HostSupport's lists that this plug-in could meet.
   options.known_properties.declared = {name::kName,
                                        name::kLabel,
                                        name::kShortLabel,

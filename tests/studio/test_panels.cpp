@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panels of exports, looks, iris, comparison and frames show, without a window.
+// The contents of the panels of exports, looks, iris, comparison and frames, without a window.
 #include <filesystem>
 #include <fstream>
 #include <sstream>

@@ -45,7 +45,7 @@ std::string plate_in(const ScratchFolder& folder) {
   return file;
 }
 
-// What the command line's `apply` makes of the plate with the document's values.
+// The picture that the command line's `apply` makes of the plate with the document's values.
 Image applied(const std::string& plate, const Document& document, const LensState& lens) {
   auto picture = read_picture(std::filesystem::path(plate));
   REQUIRE(apply_flare(*picture, lens, document.values()));

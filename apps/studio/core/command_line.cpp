@@ -55,7 +55,7 @@ std::string plate_options(const SessionPlate& plate) {
   return text;
 }
 
-// What the kind adds, and the output.
+// The options that the kind of export adds, and the output.
 std::string output_options(const CommandChoice& choice, bool applies) {
   const std::string output = quoted(choice.output);
   switch (choice.kind) {

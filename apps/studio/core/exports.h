@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a document can be exported as. Errors: InvalidArgument and Unsupported for a name that does not fit; those of
-// rendering and of writing. Thread-safety: pure functions, but for the files.
+// The kinds of files that a document can be exported as. Errors: InvalidArgument and Unsupported for a name that does
+// not fit; those of rendering and of writing. Thread-safety: pure functions, but for the files.
 #pragma once
 
 #include <array>

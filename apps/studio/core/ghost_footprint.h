@@ -27,7 +27,7 @@ struct GhostFootprint {
 [[nodiscard]] GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light,
                                           const Frame& frame);
 
-// Of the first ghosts, as many as are traced within the time that a hand does not notice.
+// The number of ghosts, from the first on, that are traced: it takes no longer than a user notices.
 inline constexpr std::size_t kMostFootprints = 40;
 [[nodiscard]] std::vector<GhostFootprint> footprints_of(const LensState& lens, const std::vector<GhostFigures>& figures,
                                                         const Light& light, const Frame& frame, const Context& context);

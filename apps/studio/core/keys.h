@@ -17,7 +17,7 @@ enum class LightPart { Position, Value, Colour, Size, Distance };
 inline constexpr int kLightParts = 5;
 [[nodiscard]] const char* name_of(LightPart part);
 
-// What has keys: a parameter by its name, or a part of a light.
+// Something that has keys: a parameter by its name, or a property of a light.
 struct TrackId {
   std::string parameter;  // empty: of a light
   std::size_t light = 0;

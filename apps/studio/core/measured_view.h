@@ -27,8 +27,8 @@ struct MeasuredCurve {
   std::string ghost;
   std::vector<Vec2> points;  // angle of the light in degrees, value
 };
-// Of each ghost over the angles at which it is there: its speed (the centre over the light's place), its size as a
-// tangent, its level inside in the green channel.
+// A figure of each ghost over the angles at which it exists: its speed (its centre over the light's position), its size
+// as a tangent, or its level inside in the green channel.
 [[nodiscard]] std::vector<MeasuredCurve> curves_of(const MeasuredFlare& flare, GhostCurve curve);
 
 [[nodiscard]] double largest_angle_deg(const MeasuredFlare& flare);

@@ -13,7 +13,7 @@
 namespace contrejour::studio {
 namespace {
 
-// What decides which lights are found, and in which directions they are.
+// A text of everything that decides which lights are found, and in which directions they are.
 std::string detection_key(const LensState& lens, const params::Values& values) {
   std::string key = fmt::format("{} {} {}", static_cast<const void*>(&lens), lens.focal_length_mm, lens.f_number);
   for (const params::Parameter& p : params::all_parameters())

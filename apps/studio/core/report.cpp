@@ -36,20 +36,6 @@ i {{ display: inline-block; width: 22px; height: 12px; border-radius: 3px; }}
 <h1>{0}</h1>
 )";
 
-// RFC 4648, section 4.
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t group = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      group = group << 8 | (i < count ? std::to_integer<std::uint32_t>(bytes[k + i]) : 0);
-    for (std::size_t i = 0; i < 4; ++i) out += i <= count ? kDigits[group >> (18 - 6 * i) & 63] : '=';
-  }
-  return out;
-}
-
 std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string html = "<tr>";
   for (const std::string& cell : cells) html += fmt::format("<{0}>{1}</{0}>", tag, cell);
@@ -75,13 +61,13 @@ Result<std::string> picture_html(const ExportOrder& order, const Context& contex
   const auto otherwise = order.plate ? params::DefaultExposure::None : params::DefaultExposure::Automatic;
   const auto png = preview_png(picture, params::preview_settings(values, picture, otherwise), context);
   if (!png) return tl::unexpected(png.error());
-  return "<img class=\"picture\" alt=\"The picture\" src=\"data:image/png;base64," + base64(*png) + "\">\n";
+  return "<img class=\"picture\" alt=\"The picture\" src=\"" + data_uri("image/png", *png) + "\">\n";
 }
 
 std::string section_html(const ExportOrder& order) {
   const std::string svg = section_svg(lens_section(*order.lens));
-  return "<h2>Section</h2>\n<img alt=\"Section of the lens\" src=\"data:image/svg+xml;base64," +
-         base64(std::as_bytes(std::span(svg))) + "\">\n";
+  return "<h2>Section</h2>\n<img alt=\"Section of the lens\" src=\"" +
+         data_uri("image/svg+xml", std::as_bytes(std::span(svg))) + "\">\n";
 }
 
 std::string ghosts_html(const ExportOrder& order) {

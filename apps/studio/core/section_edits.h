@@ -13,7 +13,7 @@ enum class SurfaceGrip {
   Rim,  // along the axis, with the vertex where it is: the radius changes
 };
 
-// Where in the section a surface is held: its rim, from half its height on.
+// The part of a surface that is held in the section: its rim, from half its height on.
 [[nodiscard]] SurfaceGrip grip_at(const Surface& surface, double height_mm);
 
 // The lens with the surface's grip moved by so much. Errors: also the first vertex, from which z counts, and the stop's

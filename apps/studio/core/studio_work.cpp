@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a studio does beside its document and its picture: frames, snapshots, thumbnails, point spreads.
+// The studio's tasks besides its document and its picture: frames, snapshots, thumbnails, point spreads.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -23,7 +23,7 @@ struct View {
 };
 
 [[nodiscard]] std::string json_of_view(const View& view);
-// What is missing or no value of a view has its default.
+// Members that are missing, or have no valid value, take their defaults.
 [[nodiscard]] View view_of_json(const std::string& text);
 
 }  // namespace contrejour::studio

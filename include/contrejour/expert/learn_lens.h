@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photographs of a sweep say about a lens whose prescription is known: the reflectances of its surfaces from the
-// energies of its ghosts, and its focus, spacings, tilts and decentres from their places and sizes.
+// Properties of a lens of known prescription, learnt from photographs of a sweep: the reflectances of its surfaces from
+// the energies of its ghosts, and its focus, spacings, tilts and decentres from their places and sizes.
 // Source: docs/physics/measured-flare.md, "Physics from pictures".
 // Units: as in lens.h; reflectances 0 to 1. Errors: InvalidArgument, Cancelled, those of the pictures and of
 // configure_lens. Thread-safety: pure functions; the same bits for any number of threads.
@@ -23,7 +23,7 @@ namespace contrejour {
 
 // A sweep of a known lens.
 struct LensPhotographs {
-  Prescription lens;      // as its file has it: what is learnt starts from there
+  Prescription lens;  // as its file has it: what is learnt starts from there
   LensSettings settings;  // zoom, f-number, focus and iris of the photographs
   FlareSweep sweep;
   SweepGeometry geometry;
@@ -35,7 +35,7 @@ struct LensPhotographs {
 struct CoatingFitOptions {
   int max_width = 320;  // pictures are reduced by whole numbers to at most this width
   int max_ghosts = 40;  // whose energies are measured: the brightest; all others together are one picture more
-  int max_rounds = 4;   // ghosts are drawn again with the coatings learnt, for their transmittances and colours
+  int max_rounds = 4;  // ghosts are drawn again with the coatings learnt, for their transmittances and colours
   double model_error = 0.05;  // of a pixel's value: what a drawn ghost is not expected to describe
 };
 
@@ -47,10 +47,10 @@ struct GhostEnergy {
 };
 
 struct LearntReflectance {
-  int surface = 0;   // 1-based
+  int surface = 0;  // 1-based
   bool learnt = false;  // false: cemented, or without power to reflect: it keeps its coating
-  Rgb reflectance{};    // at normal incidence, the mean over each channel of the light
-  Rgb relative_error{};   // standard errors
+  Rgb reflectance{};  // at normal incidence, the mean over each channel of the light
+  Rgb relative_error{};  // standard errors
   std::array<bool, 3> determined{};  // false: the ghosts leave it, or its ratio to others, open
 };
 
@@ -72,30 +72,30 @@ struct LearntCoatings {
 
 // How far a lens may be from its prescription before anything is measured: standard errors. 0: not to be learnt.
 struct LensTolerances {
-  double tilt_rad = 0.00175;         // of each body of glass about its middle, about x and about y: 0.1 degrees
-  double decentre_mm = 0.05;         // of each body, in x and in y
-  double gap_mm = 0.1;               // of each air space (not of a zoom)
-  double focus_mm = 0.3;             // of the sensor's distance from the last vertex
-  double stop_radius = 0.03;         // relative
-  double stop_position_mm = 0.2;     // along the axis
+  double tilt_rad = 0.00175;  // of each body of glass about its middle, about x and about y: 0.1 degrees
+  double decentre_mm = 0.05;  // of each body, in x and in y
+  double gap_mm = 0.1;  // of each air space (not of a zoom)
+  double focus_mm = 0.3;  // of the sensor's distance from the last vertex
+  double stop_radius = 0.03;  // relative
+  double stop_position_mm = 0.2;  // along the axis
 };
 
 struct AdjustOptions {
   LensTolerances tolerances;
-  int max_width = 320;      // as for coatings
-  int max_ghosts = 16;      // whose places and sizes are measured: the brightest
-  int max_iterations = 8;   // in each of the resolutions, which double up to the width
+  int max_width = 320;  // as for coatings
+  int max_ghosts = 16;  // whose places and sizes are measured: the brightest
+  int max_iterations = 8;  // in each of the resolutions, which double up to the width
   double model_error = 0.05;
 };
 
 enum class LearntKind { TiltX, TiltY, DecentreX, DecentreY, Gap, Focus, StopRadius, StopPosition };
 
-// What the pictures say about one number of the lens, as its change from the file's.
+// A number of the lens as the pictures have it: its change from the file's.
 struct LearntNumber {
   LearntKind kind = LearntKind::Focus;
   int first = 0, last = 0;  // surfaces of the body, 1-based; of a gap, those on either side of it
-  double value = 0;         // rad, mm; of the stop's radius relative
-  double error = 0;         // standard error, with the tolerance as prior
+  double value = 0;  // rad, mm; of the stop's radius relative
+  double error = 0;  // standard error, with the tolerance as prior
   double tolerance = 0;
   bool determined = false;  // false: the pictures add little to the tolerance
 };
@@ -103,7 +103,7 @@ struct LearntNumber {
 struct AdjustedLens {
   Prescription lens;
   std::vector<LearntNumber> numbers;
-  Vec2 centre_px;         // where the lens's axis meets the pictures: full-size merged pixels
+  Vec2 centre_px;  // where the lens's axis meets the pictures: full-size merged pixels
   std::vector<Ghost> ghosts;  // that were measured
   // RMS distance between ghosts' measured and traced middles, in full-size merged pixels, weighted by what is known of
   // each: of the lens as its file has it, and as it was learnt.

@@ -24,7 +24,7 @@ struct TwoLenses {
   // The code that traces the rays for fits treats every surface that light leaves a lens by as a cylinder, with the
   // ray's distance taken in the y-z plane and the normal from a scaled point. The code that draws traces spheres.
   enum class Tracer : std::uint8_t { AsPublished, Spheres } tracer = Tracer::AsPublished;
-  // Where the polynomials were fitted. The program then moves the sensor to 3 and draws there.
+  // The sensor's position for which the polynomials were fitted. The program then moves it to 3 and draws there.
   double sensor_z = 7.0;
   // The stop's hexagon blocks rays.
   bool stop = true;

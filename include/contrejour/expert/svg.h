@@ -2,6 +2,8 @@
 // A few elements of SVG, written as text. Coordinates are in pixels, y downwards. Thread-safety: plain values.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +16,9 @@ namespace contrejour {
 // The text with the characters escaped that mean something in HTML and SVG, quotes included, so that it may stand in an
 // attribute; control characters, which XML does not allow, become spaces.
 [[nodiscard]] CONTREJOUR_API std::string markup_text(std::string_view text);
+
+// A file within a page: a `data:` address (RFC 2397) with its bytes in base64 (RFC 4648). media_type: "image/png".
+[[nodiscard]] CONTREJOUR_API std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes);
 
 class CONTREJOUR_API Svg {
  public:

@@ -22,7 +22,8 @@ constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6
 // The least half axis of a small ghost: four squares across a pixel describe no smaller one.
 constexpr double kLeastHalfAxis_px = 0.25;
 constexpr double kCutPart = 0.5;  // of a cut ghost's radius: how far each of its coefficients may move in one fit
-// Of its radius: how far a small ghost, and a disc that is fitted by itself, may move in one fit, beside a pixel.
+// Fractions of its radius by which a small ghost, and a disc that is fitted by itself, may move in one fit, in addition
+// to a pixel.
 constexpr double kNearPart = 0.35, kNearPartOfDisc = 0.15;
 
 Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
@@ -34,7 +35,7 @@ Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
 // Coefficients beyond the first: by how much a ghost may leave the disc that moves evenly. Without bounds, one that
 // stands for light of another kind takes any shape at angles where little holds it.
 constexpr double kBend = 0.2, kBendOfRadius = 0.5;  // of the way that the centre moves, and of the radius
-constexpr double kGrowth = 0.5, kSkew = 0.4;        // of the radius
+constexpr double kGrowth = 0.5, kSkew = 0.4;  // of the radius
 constexpr double kRoundnessChange = 0.15, kFadeChange = 0.3;  // the latter of the radius
 
 // A ghost changes smoothly and by parts of its own size.

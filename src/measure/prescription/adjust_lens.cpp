@@ -64,7 +64,7 @@ Result<MeasuredFigures> measure(Adjustment& adjustment, PyramidLevel& level, con
                           centre_of(level.stations, unknowns), level.weights, context);
 }
 
-// Where the lens has the light's own images, as the sweep's geometry describes them: the image of light perpendicular
+// The light's own images behind the lens, as the sweep's geometry describes them: the image of light perpendicular
 // to the sensor, which is the geometry's centre (tilted elements leave it nearly where the lens's axis meets the
 // sensor, decentred ones move it), and half the distance of two images at either side.
 Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const PyramidLevel& level,
@@ -81,7 +81,7 @@ Result<Eigen::Vector3d> light_images_px(const Adjustment& adjustment, const Pyra
   return Eigen::Vector3d{middle.x, middle.y, half};
 }
 
-// What the geometry says of these three, and its standard errors.
+// Sets these three figures as the sweep's geometry has them, with their standard errors.
 void set_light_images(const Adjustment& adjustment, PyramidLevel& level) {
   const SweepGeometry& geometry = adjustment.photographs.geometry;
   const std::vector<double>& angles = adjustment.photographs.sweep.angles_rad;

@@ -17,7 +17,7 @@ struct SweepEnergies {
   std::vector<StationMatrix> by_station;
   Eigen::Index ghosts = 0;
 
-  // Of the ghosts in one channel, without one station (-1: of all).
+  // The sum for the ghosts in one channel, without one station (-1: with all).
   [[nodiscard]] EnergyEquations sum(std::size_t channel, std::ptrdiff_t without = -1) const;
   [[nodiscard]] double pixels(std::size_t channel) const;
 };

@@ -22,7 +22,7 @@ constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing a
 constexpr double kLeastReflectance = 1e-5;
 constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
 
-// What stays the same in all rounds.
+// The inputs that stay the same in all rounds.
 struct CoatingTask {
   const LensPhotographs& photographs;
   const CoatingFitOptions& options;

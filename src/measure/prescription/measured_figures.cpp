@@ -14,7 +14,8 @@
 namespace contrejour::inline internal {
 namespace {
 
-// What figures are uncertain by beside the pixels' errors: residuals of a drawn ghost are alike in neighbouring pixels.
+// The least uncertainty of figures, which the pixels' errors alone do not state: residuals of a drawn ghost are alike
+// in neighbouring pixels.
 constexpr double kLeastMiddle_px = 0.03, kLeastMiddleOfSize = 0.002, kLeastSize = 0.004;
 constexpr double kHuber = 3.0;  // standard deviations from which a figure counts linearly
 constexpr double kLevelError = 0.1;  // relative, of a ghost's level from station to station

@@ -93,7 +93,8 @@ HWY_INLINE bool deflect_by_grating(State& state, Vec2 grating_shift) {
   return true;
 }
 
-// What it calls is inlined, as compilers do where a function has one caller; otherwise it took a twentieth longer.
+// The functions that it calls are inlined, as compilers do where a function has one caller; a call of each took a
+// twentieth longer.
 // Takes the ray across one surface; false ends it with out.status set.
 inline bool advance(State& state, const PathStep& step, const OpticalPath& path, double* angle_of_incidence_rad,
                     double* reflectance_here) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a dense fit keeps for searches among its terms: sums over all samples, from which any choice of terms is fitted
-// and rated without the samples.
+// The sums over all samples that a dense fit keeps for searches among its terms, from which any choice of terms is
+// fitted and rated without the samples.
 #pragma once
 
 #include <span>

@@ -29,7 +29,7 @@ class GhostToFit {
   // nearly pass.
   [[nodiscard]] std::array<published::Samples, 5> samples(const published::PictureOptions& options, Vec2 light) const;
 
-  // Where the inputs of entrance points have their middle and their scale: the same for all ghosts, as published.
+  // The inputs that stand for an entrance point: their middle and scale are the same for all ghosts, as published.
   [[nodiscard]] Vec2 normalised(Vec2 entrance_mm) const;
 
  private:

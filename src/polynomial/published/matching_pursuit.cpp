@@ -17,7 +17,7 @@ using published::PursuitOptions;
 using published::SparseFit;
 using State = published::DenseFit::State;
 
-// What a search has chosen, and the curve of its errors.
+// The terms that a search has chosen, and the curve of its errors.
 struct Pursuit {
   const State& state;
   const Context& context;

@@ -25,7 +25,7 @@ struct GhostChoice {
   std::vector<double> flux_fractions = {};  // each ghost's of that of all ghosts, if the ghosts were measured
 };
 
-// What a session keeps of each ghost of a lens.
+// The figures of each ghost of a lens that a session keeps.
 struct KeptByGhost {
   pupils::KeptPupils& pupils;
   KeptGhostFluxes& fluxes;

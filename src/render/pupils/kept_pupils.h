@@ -17,7 +17,7 @@
 
 namespace contrejour::inline internal::pupils {
 
-// What a search over the whole window (pupil_search.h) depends on besides the lens.
+// The inputs of a search over the whole window (pupil_search.h) besides the lens.
 struct WindowSearch {
   Ghost ghost;
   const LightSource& light;
