@@ -170,7 +170,7 @@ void GhostTessellator::tessellate_band(const BandSet& set, std::size_t band, std
                                        Tessellator& cells) const {
   Patch patch;
   for (const FittedPart& part : parts) {
-    if (context_ != nullptr && context_->cancelled()) return;
+    if (context_ != nullptr && context_->cancelled()) break;  // emit() clears the cells, which are scratch memory
     if (!part.only_band)
       set.band_patch(part.patches, band, patch);
     else if (*part.only_band == band)
