@@ -96,7 +96,7 @@ struct PursuitOptions {
     ErrorReduction,
   } rating = Rating::ErrorReduction;
   // With replacement. DenseCoefficient: one step for each term of the dense polynomial, as in the thesis.
-  // ErrorReduction: until no replacement lowers the error, or for so many steps.
+  // ErrorReduction: replacements end when none lowers the error, and after this number at the latest.
   int max_replacements = 1000;
 };
 

@@ -62,7 +62,7 @@ struct ZoneSampling {
   int fields = 16;  // evenly spaced, from the axis on
   double largest_field = 0.2;  // tangent
   int rays = 800;  // in each zone
-  double margin = 1.1;  // rays up to so many radii of the stop and of rims
+  double margin = 1.1;  // rays are traced up to this multiple of the radii of the stop and of rims
   double lambda_nm = 550.0;
   bool along_field = true;  // the output: the sensor's coordinate along the field, else across
   std::uint64_t seed = 1;

@@ -29,7 +29,7 @@ struct SweepStations {
 [[nodiscard]] std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo,
                                                        double model_error, const std::vector<double>& deviations = {});
 
-// Stations of which one pixel of so many is fitted, but all of them about the small ghosts of a flare.
+// Stations of which one pixel of `every` is fitted, but every pixel about the small ghosts of a flare.
 [[nodiscard]] std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every,
                                                        const MeasuredFlare& flare = {});
 

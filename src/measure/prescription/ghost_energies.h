@@ -31,7 +31,7 @@ struct DrawnSweep {
 
 [[nodiscard]] Result<SweepEnergies> sweep_energies(const DrawnSweep& drawn, const Context& context);
 
-// The ghosts that are brightest in the pictures, at most so many. Their order is that of brightness.
+// The ghosts that are brightest in the pictures, at most `most` of them, the brightest first.
 [[nodiscard]] Result<std::vector<Ghost>> visible_ghosts(const LensStations& stations, const LensState& lens, int most,
                                                         const Context& context);
 

@@ -162,7 +162,8 @@ Result<void> check_zones(std::span<const ZoneSamples> zones, const ZoneOptions& 
     return refuse("zones take exponents of 1 to 16");
   if (options.terms < 1 || options.terms > 64 || options.iterations < 1)
     return refuse("zones take 1 to 64 terms, and at least one iteration");
-  if (std::pow(options.largest_exponent + 1.0, 4.0) < 2.0 * options.terms) return refuse("there are not so many terms");
+  if (std::pow(options.largest_exponent + 1.0, 4.0) < 2.0 * options.terms)
+    return refuse("exponents this small do not give twice the requested number of terms");
   if (zones.empty()) return refuse("a fit needs at least one zone");
   for (const ZoneSamples& zone : zones)
     if (zone.inputs.size() != zone.values.size() || zone.values.size() < static_cast<std::size_t>(options.terms))
