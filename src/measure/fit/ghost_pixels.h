@@ -20,8 +20,8 @@ inline constexpr std::size_t kPlaceCurves = 4;   // of these, those on which a p
 struct StationFrame {
   TangentFrame pixels;
   Vec2 to_light{1.0, 0.0};  // unit, y up
-  // A fit may take one pixel of `sampled_every`, evenly spread: those for which x + 2 y is a multiple; and others that are
-  // marked, row by row.
+  // A fit may take one pixel of `sampled_every`, evenly spread: those for which x + 2 y is a multiple; and others that
+  // are marked, row by row.
   int sampled_every = 1;
   std::shared_ptr<const std::vector<bool>> also_sampled = nullptr;
 
