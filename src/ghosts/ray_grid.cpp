@@ -13,6 +13,9 @@ constexpr double kMaxRounding = 1e-3;
 constexpr double kNegligibleCell_px = 0.25;
 constexpr int kProbeRays = 64;
 constexpr double kFloatPupil_mm = 1.0;
+// Rays traced between two looks at whether the caller has cancelled, some hundredths of a second. A multiple of a
+// packet's rays, so that packets are the same without looks.
+constexpr std::size_t kRaysAtOnce = 32768;
 
 // The cubic through f(0) to f(3), at t.
 std::array<float, 4> cubic_weights(double t) {
@@ -68,20 +71,27 @@ void RayGrid::prepare(const PacketPath& packets, std::size_t count) {
   resize(count);
 }
 
-void RayGrid::trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
-                               PacketPrecision precision) {
-  TracedArrays out{
-      sensor_x_mm.data(), sensor_y_mm.data(), transmission.data(), relative_height.data(), {}, {}, nullptr, 0};
+// Traces `count` rays, whose values are kept from `first` on.
+void RayGrid::trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t first,
+                               std::size_t count, PacketPrecision precision) {
+  TracedArrays out{sensor_x_mm.data() + first,
+                   sensor_y_mm.data() + first,
+                   transmission.data() + first,
+                   relative_height.data() + first,
+                   {},
+                   {},
+                   nullptr,
+                   0};
   for (std::size_t c = 0; c < static_cast<std::size_t>(stop_crossings_); ++c) {
-    out.stop_x[c] = stop_x[c].data();
-    out.stop_y[c] = stop_y[c].data();
+    out.stop_x[c] = stop_x[c].data() + first;
+    out.stop_y[c] = stop_y[c].data() + first;
   }
   trace_packets(packets, precision, x_mm, y_mm, count, out);
 }
 
 // Traces the first rows of the grid; all arrays are sized for the whole.
-void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows,
-                         PacketPrecision precision) {
+void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows, PacketPrecision precision,
+                         const Context* context) {
   side_ = side;
   box_ = box;
   prepare(packets, at(0, side));
@@ -90,7 +100,13 @@ void RayGrid::trace_rows(const PacketPath& packets, const Rectangle& box, int si
     std::fill_n(y_mm_.begin() + static_cast<std::ptrdiff_t>(at(0, iy)), side, static_cast<float>(iy * step.y));
     for (int ix = 0; ix < side; ++ix) x_mm_[at(ix, iy)] = static_cast<float>(ix * step.x);
   }
-  trace_packets_of(packets, x_mm_.data(), y_mm_.data(), at(0, rows), precision);
+  const std::size_t count = at(0, rows);
+  const std::size_t at_once = context == nullptr ? count : kRaysAtOnce;
+  for (std::size_t first = 0; first < count; first += at_once) {
+    if (context != nullptr && context->cancelled()) return;
+    trace_packets_of(packets, x_mm_.data() + first, y_mm_.data() + first, first, std::min(at_once, count - first),
+                     precision);
+  }
 }
 
 void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris,
@@ -100,9 +116,10 @@ void RayGrid::trace(const OpticalPath& path, const ReflectanceTables& tables, co
 }
 
 void RayGrid::trace(PacketPath& packets, const IrisShape& iris, const Rectangle& box, int side,
-                    PacketPrecision precision) {
+                    PacketPrecision precision, const Context* context) {
   packets.start_from(box.low);
-  trace_rows(packets, box, side, side, precision);
+  trace_rows(packets, box, side, side, precision, context);
+  if (context != nullptr && context->cancelled()) return;
   find_blocked(iris, at(0, side));
 }
 
@@ -131,7 +148,7 @@ void RayGrid::trace_points(PacketPath& packets, const IrisShape& iris, const Lig
   side_ = 0;
   prepare(packets, x_mm.size());
   packets.start_from(origin_mm);
-  trace_packets_of(packets, x_mm.data(), y_mm.data(), x_mm.size(), precision);
+  trace_packets_of(packets, x_mm.data(), y_mm.data(), 0, x_mm.size(), precision);
   to_lens_frame(iris, light);
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "contrejour/context.h"
 #include "ghosts/iris_shape.h"
 #include "ghosts/light_frame.h"
 #include "optics/trace/packet_trace.h"
@@ -39,8 +40,10 @@ class RayGrid {
   void trace(const OpticalPath& path, const ReflectanceTables& tables, const IrisShape& iris, const LightSource& light,
              double z_mm, const Rectangle& box, int side, PacketPrecision precision);
 
-  // The same for a prepared path of the light from any point of the plane.
-  void trace(PacketPath& packets, const IrisShape& iris, const Rectangle& box, int side, PacketPrecision precision);
+  // The same for a prepared path of the light from any point of the plane. Once the context is cancelled, values may be
+  // those of earlier grids; null: never.
+  void trace(PacketPath& packets, const IrisShape& iris, const Rectangle& box, int side, PacketPrecision precision,
+             const Context* context = nullptr);
 
   // The same for a light in the x-z plane and a box that is symmetric in y: one half is traced and mirrored
   // (hullin2011 4.2, mirror symmetry), the iris is applied to every ray at its crossings. Returns the number of rays
@@ -95,10 +98,11 @@ class RayGrid {
   void resize(std::size_t count);
   void resize_light(std::size_t count);
   void prepare(const PacketPath& packets, std::size_t count);
-  void trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t count,
-                        PacketPrecision precision);
+  void trace_packets_of(const PacketPath& packets, const float* x_mm, const float* y_mm, std::size_t first,
+                        std::size_t count, PacketPrecision precision);
   void to_lens_frame(const IrisShape& iris, const LightFrame& light);
-  void trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows, PacketPrecision precision);
+  void trace_rows(const PacketPath& packets, const Rectangle& box, int side, int rows, PacketPrecision precision,
+                  const Context* context = nullptr);
   void mirror_rows(int from);
   void refine(std::vector<float>& values, int factor) const;
   void find_blocked(const IrisShape& iris, std::size_t count);

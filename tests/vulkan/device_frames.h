@@ -61,9 +61,10 @@ inline Flare frame_by(const MethodOptions& method, const LensState& lens, std::s
   return std::move(*flare);
 }
 
-// A cache with a device; its device is null where there is none.
+// A cache with a device, which is null where there is none, and one without: what a frame leaves in the one (pupils,
+// for example) it has to leave in the other, too, if the two are to count the same rays.
 struct OnDevice {
-  RenderCache cache;
+  RenderCache cache, cpu_cache;
   KeptDevice& kept = *cache.section<KeptDevice>({});
   explicit OnDevice(DeviceOptions options = {}) {
     kept.device = open_device(std::move(options));

@@ -13,8 +13,7 @@ void check_near(OnDevice& device, const LensState& lens, std::span<const Light> 
                 double error = 0.003) {
   FrameSettings colour = settings;
   colour.wavelengths = 3;
-  RenderCache on_cpu;
-  const Flare exact = frame_by(AdaptiveOptions{kFine}, lens, lights, colour, on_cpu);
+  const Flare exact = frame_by(AdaptiveOptions{kFine}, lens, lights, colour, device.cpu_cache);
   const Flare got = frame_by(AdaptiveOptions{error}, lens, lights, colour, device.cache);
   test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(error), 0.03});
 }

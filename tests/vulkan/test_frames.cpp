@@ -12,8 +12,7 @@ namespace {
 // Compares a method on both sides.
 void check_same(OnDevice& device, const MethodOptions& method, const LensState& lens, std::span<const Light> lights,
                 const FrameSettings& settings, double least_db = 60.0) {
-  RenderCache on_cpu;
-  const Flare exact = frame_by(method, lens, lights, settings, on_cpu);
+  const Flare exact = frame_by(method, lens, lights, settings, device.cpu_cache);
   const Flare got = frame_by(method, lens, lights, settings, device.cache);
   CHECK(got.statistics.rays == exact.statistics.rays);
   test::check_agreement(device, lens, exact, got, {least_db, 1e-3});
@@ -93,7 +92,6 @@ TEST_CASE("what a device cannot draw the CPU draws, and the statistics say so") 
   OnDevice device;
   if (!device.kept.device) return;
   const LensState lens = lens_of("heliar");
-  RenderCache on_cpu;
   FrameSettings settings = settings_of(lens, 64, 36);
   settings.selection = SelectBrightest{2};
   const auto lights = std::span(kTwoLights).first(1);
@@ -102,7 +100,7 @@ TEST_CASE("what a device cannot draw the CPU draws, and the statistics say so") 
     if (method.name() == "adaptive") settings.ringing.mode = RingingMode::Fresnel;
     const Flare got = frame_by(method, lens, lights, settings, device.cache);
     CHECK(got.statistics.device.starts_with("cpu ("));
-    CHECK(got.image.pixels == frame_by(method, lens, lights, settings, on_cpu).image.pixels);
+    CHECK(got.image.pixels == frame_by(method, lens, lights, settings, device.cpu_cache).image.pixels);
   }
 }
 

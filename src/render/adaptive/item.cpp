@@ -27,7 +27,7 @@ std::vector<double> wavelengths_of(const PlannedLight& light) {
 double stop_times(const Item& item) { return item.patterns ? item.patterns->outer_radius : 1.0; }
 
 PupilRequest request_of(const Scene& scene, const Item& item, std::span<const double> lambda_nm) {
-  return {scene.steps, item.ghost, item.light->source, item.window, lambda_nm, stop_times(item)};
+  return {scene.steps, item.ghost, item.light->source, item.window, lambda_nm, stop_times(item), scene.context};
 }
 
 Work take_boxes(Item& item, GhostPupil pupil) {

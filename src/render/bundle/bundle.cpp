@@ -79,7 +79,8 @@ Result<DrawnFlare> render_bundle(const PlannedFrame& planned, const BundleOption
   if (!stops.prepare(plan, context)) return interrupted();
   times.bounds_ms = whole.elapsed_ms();
   if (context.cancelled()) return interrupted();
-  const bundle::GridSource source{lens, options, plan.tables, stops, *plan.kept_pupils, bounds ? &*bounds : nullptr};
+  const bundle::GridSource source{lens,   options, plan.tables, stops, *plan.kept_pupils, bounds ? &*bounds : nullptr,
+                                  context};
   KeptDevice& kept = *planned.cache.section<KeptDevice>({});
   if (kept.may_draw(bundle::device_lacks(source, plan))) {
     auto drawn = bundle::draw_on_device(kept, source, planned, plan, context);

@@ -69,10 +69,10 @@ std::optional<pupils::PupilRegion> GhostGrid::search(Ghost ghost, const GhostPup
   const PupilEffort effort =
       from_.options.grid_levels ? PupilEffort::Finest : pupils::effort_for_grid(from_.options.grid.rays);
   const LightSource& light = pupil.meridian.light;
-  return pupils::region_of(
-      from_.kept.find_window_pupil({ghost, light, pupil.lambda_nm, pupil.path.stop_radius_mm, pupil.iris, effort}, [&] {
+  return pupils::region_of(from_.kept.find_window_pupil(
+      {ghost, light, pupil.lambda_nm, pupil.path.stop_radius_mm, pupil.iris, effort, &from_.context}, [&] {
         pupils::PupilRays rays(pupil.path, tables_of(pupil), light, IrisShape(pupil.iris), window);
-        return find_pupil(rays, {.effort = effort}, rays_);
+        return find_pupil(rays, {.effort = effort, .context = &from_.context}, rays_);
       }));
 }
 

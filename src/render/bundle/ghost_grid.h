@@ -43,6 +43,7 @@ struct GridSource {
   const StopTransmittances& stops;
   pupils::KeptPupils& kept;
   const pupils::PupilBounds* bounds;  // replace a search, for distant lights without a stop pattern; may be null
+  const Context& context;
 };
 
 class GhostGrid {

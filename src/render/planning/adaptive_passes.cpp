@@ -46,8 +46,10 @@ double shift_mm(const RayGrid& a, const RayGrid& b) {
 // Traces the rays of one ghost of one light.
 class GhostProbe {
  public:
-  GhostProbe(const FramePlan& plan, const LensState& lens, const Ghost& ghost, const PlannedLight& light)
-      : plan_(plan), lens_(lens), ghost_(ghost), light_(light), window_(entrance_window(lens, light.source)) {}
+  GhostProbe(const FramePlan& plan, const LensState& lens, const Ghost& ghost, const PlannedLight& light,
+             const Context& context)
+      : plan_(plan), lens_(lens), ghost_(ghost), light_(light), context_(context),
+        window_(entrance_window(lens, light.source)) {}
 
   // nullopt where nothing gets through.
   [[nodiscard]] std::optional<GhostSpectrum> spectrum() const {
@@ -78,9 +80,10 @@ class GhostProbe {
          {&light_.passes[light_.passes.size() / 2], &light_.passes.front(), &light_.passes.back()}) {
       const OpticalPath path = ghost_path(lens_, ghost_, pass->lambda_nm);
       const pupils::Pupil found = plan_.kept_pupils->find_window_pupil(
-          {ghost_, light_.source, pass->lambda_nm, path.stop_radius_mm, Iris{}}, [&] {
+          {ghost_, light_.source, pass->lambda_nm, path.stop_radius_mm, Iris{}, pupils::PupilEffort::Finest, &context_},
+          [&] {
             return find_pupil(pupils::PupilRays(path, plan_.tables.at(pass->lambda_nm), light_.source, iris_, window_),
-                              {});
+                              {.context = &context_});
           });
       if (!found.is_empty()) return found.box();
     }
@@ -91,6 +94,7 @@ class GhostProbe {
   const LensState& lens_;
   const Ghost& ghost_;
   const PlannedLight& light_;
+  const Context& context_;
   EntranceWindow window_;
   IrisShape iris_{Iris{}};
 };
@@ -149,7 +153,7 @@ std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensS
   const bool done = parallel_for(pairs.size(), quiet, [&](std::size_t k) {
     const PlannedLight& light = plan.lights[pairs[k].light];
     if (light.passes.empty()) return;
-    const auto spectrum = GhostProbe(plan, lens, plan.ghosts[pairs[k].ghost], light).spectrum();
+    const auto spectrum = GhostProbe(plan, lens, plan.ghosts[pairs[k].ghost], light, quiet).spectrum();
     if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, frame.pixel_pitch_mm);
   });
   return done ? std::optional(std::move(out)) : std::nullopt;

@@ -66,8 +66,9 @@ class MeasuredLight {
     }
   }
 
-  [[nodiscard]] PupilRequest request(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost) const {
-    return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_};
+  [[nodiscard]] PupilRequest request(const LensState& lens, const StepsByWavelength& steps, const Ghost& ghost,
+                                     const Context& context) const {
+    return {steps, ghost, light_.source, windows_.of(has_axial_symmetry(lens, ghost)), all_nm_, 1.0, &context};
   }
   [[nodiscard]] Rgb flux(const PupilRequest& request, const GhostPupil& searched, const IrisShape& iris,
                          const AppliedAdjustment& adjustment, const Frame& frame, KeptGhostFluxes& kept) const {
@@ -108,7 +109,7 @@ class GhostMeasuring {
     out.pupils.resize(count <= kMaxKept ? count : 0);
     const bool done = parallel_for(count, context, [&](std::size_t k) {
       const std::size_t g = k / lights_.size();
-      const PupilRequest request = request_of(k, ghosts[g]);
+      const PupilRequest request = request_of(k, ghosts[g], context);
       GhostPupil searched = pupils_.search_ghost_pupil(request);
       flux[k] = lights_[k % lights_.size()].flux(request, searched, iris_, adjustments[g], settings_.frame, fluxes_);
       if (!out.pupils.empty()) out.pupils[k] = std::move(searched);
@@ -123,13 +124,13 @@ class GhostMeasuring {
   // Fits polynomials to the pupils that were searched, at all wavelengths. Returns false when cancelled.
   [[nodiscard]] bool fit(std::span<const Ghost> ghosts, std::vector<GhostPupil>& pupils, const Context& context) const {
     return parallel_for(pupils.size(), context, [&](std::size_t k) {
-      pupils[k] = pupils_.fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()]), std::move(pupils[k]));
+      pupils[k] = pupils_.fit_ghost_pupil(request_of(k, ghosts[k / lights_.size()], context), std::move(pupils[k]));
     });
   }
 
  private:
-  [[nodiscard]] PupilRequest request_of(std::size_t pair, const Ghost& ghost) const {
-    return lights_[pair % lights_.size()].request(lens_, steps_, ghost);
+  [[nodiscard]] PupilRequest request_of(std::size_t pair, const Ghost& ghost, const Context& context) const {
+    return lights_[pair % lights_.size()].request(lens_, steps_, ghost, context);
   }
 
   const LensState& lens_;

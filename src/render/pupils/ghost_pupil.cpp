@@ -72,7 +72,8 @@ GhostPupil find_box_without_symmetry(const PupilRequest& request) {
     Pupil found;
     if (box) found = find_pupil(rays, {.hint = with_margin(*box)}, grid);
     if (found.is_empty())
-      found = find_pupil(rays, {.effort = box || is_first ? PupilEffort::Finest : kEffortAfterNone}, grid);
+      found = find_pupil(
+          rays, {.effort = box || is_first ? PupilEffort::Finest : kEffortAfterNone, .context = request.context}, grid);
     is_first = false;
     if (found.is_empty()) continue;
     box = box ? both(*box, found.box()) : found.box();

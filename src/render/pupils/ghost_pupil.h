@@ -20,6 +20,7 @@ struct PupilRequest {
   EntranceWindow window;  // of the light, in the frame for the ghost's symmetry (LightWindows)
   std::span<const double> lambda_nm;  // rising; searched at the middle one, fitted to the outer ones
   double stop_times = 1.0;  // factor on the stop's radius
+  const Context* context = nullptr;  // once it is cancelled, boxes may be missing; null: never
 };
 
 struct GhostPupil {

@@ -4,6 +4,11 @@
 #include <utility>
 
 namespace contrejour::inline internal::pupils {
+namespace {
+
+bool is_cancelled(const Context* context) { return context != nullptr && context->cancelled(); }
+
+}  // namespace
 
 KeptPupils::Key KeptPupils::key_of(const LensState& lens) {
   return {lens.surfaces,
@@ -49,6 +54,7 @@ GhostPupil KeptPupils::get(const PupilRequest& request, Stage stage, const Make&
   PupilKey key = key_of(request, stage);
   if (auto kept = pupils_.find(key)) return {*std::move(kept)};
   GhostPupil pupil = make();
+  if (is_cancelled(request.context)) return pupil;
   pupils_.keep(std::move(key), pupil.boxes, kEntryBytes + pupil.boxes.size() * sizeof(Rectangle));
   return pupil;
 }
@@ -77,6 +83,7 @@ Pupil KeptPupils::find_window_pupil(const WindowSearch& of, const std::function<
     return {{kept->front()}, kept->back(), 0};
   }
   Pupil pupil = search();
+  if (is_cancelled(of.context)) return pupil;
   std::vector<Rectangle> figures = pupil.boxes;
   if (!figures.empty()) figures.push_back(pupil.sensor_mm);
   const std::size_t bytes = kEntryBytes + figures.size() * sizeof(Rectangle);

@@ -25,6 +25,7 @@ struct WindowSearch {
   double stop_radius_mm = 0.0;  // that of the path
   const Iris& iris;
   PupilEffort effort = PupilEffort::Finest;
+  const Context* context = nullptr;  // as PupilSearch's
 };
 
 class KeptPupils {
@@ -51,7 +52,8 @@ class KeptPupils {
   // boxes: those of the same request with the stop's own radius.
   [[nodiscard]] GhostPupil refit_ghost_pupil(const PupilRequest& request, std::vector<Rectangle> boxes);
 
-  // The pupil over a window, that of an earlier frame or of `search`. Those of an iris that is a picture are not kept.
+  // The pupil over a window, that of an earlier frame or of `search`. Those of an iris that is a picture are not kept,
+  // nor is one that was searched while the caller cancelled.
   [[nodiscard]] Pupil find_window_pupil(const WindowSearch& of, const std::function<Pupil()>& search);
 
   void next_frame() { pupils_.next_frame(); }

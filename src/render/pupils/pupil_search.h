@@ -24,6 +24,7 @@
 #include <optional>
 #include <vector>
 
+#include "contrejour/context.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/packet_trace.h"
 
@@ -61,6 +62,9 @@ struct PupilSearch {
   // Over a window without a hint. A side below kSearchSide is for well-behaved paths.
   PupilEffort effort = PupilEffort::Finest;
   int side = kSearchSide;
+  // Asked between the parts of a grid over a window, whose finest takes tenths of a second: once it is cancelled,
+  // nothing is found. Null: never.
+  const Context* context = nullptr;
 };
 
 struct Pupil {

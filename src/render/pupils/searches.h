@@ -6,7 +6,7 @@
 
 namespace contrejour::inline internal::pupils {
 
-[[nodiscard]] Pupil search_window(PupilRays& rays, PupilEffort effort, int side, RayGrid& grid);
+[[nodiscard]] Pupil search_window(PupilRays& rays, const PupilSearch& search, RayGrid& grid);
 [[nodiscard]] Pupil search_window_around(PupilRays& rays, const Rectangle& hint, RayGrid& grid);
 
 [[nodiscard]] Pupil search_meridian(const PupilRays& rays);

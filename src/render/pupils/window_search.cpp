@@ -38,10 +38,11 @@ OpenPart open_part(const RayGrid& grid) {
   return part;
 }
 
-// Traces a grid over a box.
-OpenPart open_part(PupilRays& rays, const Rectangle& box, int side, RayGrid& grid) {
+// Traces a grid over a box. Nothing is open once the caller cancels.
+OpenPart open_part(PupilRays& rays, const Rectangle& box, int side, const Context* context, RayGrid& grid) {
   const Vec2 size = box.high - box.low;
-  grid.trace(rays.path, rays.iris, box, side, search_precision(std::min(size.x, size.y) / side));
+  grid.trace(rays.path, rays.iris, box, side, search_precision(std::min(size.x, size.y) / side), context);
+  if (context != nullptr && context->cancelled()) return {};
   return open_part(grid);
 }
 
@@ -51,15 +52,16 @@ std::uint64_t squared(int side) { return static_cast<std::uint64_t>(side) * stat
 
 int first_grid_side(PupilEffort effort) { return kFirstSides[static_cast<std::size_t>(effort)]; }
 
-Pupil search_window(PupilRays& rays, PupilEffort effort, int side, RayGrid& grid) {
+Pupil search_window(PupilRays& rays, const PupilSearch& wanted, RayGrid& grid) {
+  const int side = wanted.side;
   Pupil pupil;
   Rectangle box{rays.window.min_mm, rays.window.max_mm};
   const auto search = [&](int rays_a_side) {
     pupil.rays += squared(rays_a_side);
-    return open_part(rays, box, rays_a_side, grid);
+    return open_part(rays, box, rays_a_side, wanted.context, grid);
   };
   OpenPart part = search(side);
-  for (std::size_t k = side < kSearchSide ? 0 : 1; !part.pupil_mm && k <= static_cast<std::size_t>(effort); ++k)
+  for (std::size_t k = side < kSearchSide ? 0 : 1; !part.pupil_mm && k <= static_cast<std::size_t>(wanted.effort); ++k)
     part = search(kFirstSides[k]);
   for (int step = 1; part.pupil_mm; ++step) {
     const double before = area_of(box);
@@ -78,7 +80,7 @@ Pupil search_window_around(PupilRays& rays, const Rectangle& hint, RayGrid& grid
   const Rectangle box{{std::max(hint.low.x, window.min_mm.x), std::max(hint.low.y, window.min_mm.y)},
                       {std::min(hint.high.x, window.max_mm.x), std::min(hint.high.y, window.max_mm.y)}};
   if (!(box.low.x < box.high.x && box.low.y < box.high.y)) return {};
-  const OpenPart part = open_part(rays, box, kHintSide, grid);
+  const OpenPart part = open_part(rays, box, kHintSide, nullptr, grid);
   if (!part.pupil_mm) return {};
   const Vec2 step = grid.step_mm() * 0.5;
   const auto cut = [&](double edge, double end, double window_end, double half_step) {

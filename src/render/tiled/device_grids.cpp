@@ -45,6 +45,7 @@ struct SearchInput {
   const StopTransmittances& stops;
   const FramePlan& plan;
   double pixel_pitch_mm;
+  const Context& context;
 };
 
 FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
@@ -56,8 +57,10 @@ FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
   const EntranceWindow window = entrance_window(from.lens, light);
   const pupils::PupilEffort effort = pupils::effort_for_grid(from.options.grid.rays);
   const pupils::Pupil pupil = from.plan.kept_pupils->find_window_pupil(
-      {item.ghost, light, item.pass.lambda_nm, path.stop_radius_mm, from.lens.iris, effort},
-      [&] { return find_pupil(pupils::PupilRays(path, tables, light, iris, window), {.effort = effort}); });
+      {item.ghost, light, item.pass.lambda_nm, path.stop_radius_mm, from.lens.iris, effort, &from.context}, [&] {
+        return find_pupil(pupils::PupilRays(path, tables, light, iris, window),
+                          {.effort = effort, .context = &from.context});
+      });
   FoundGrid found;
   if (pupil.is_empty()) return found;
   const Rectangle box = pupil.box();
@@ -93,7 +96,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options,
                                   const PlannedFrame& planned, const FramePlan& plan, const Context& context) {
   DeviceFrame frame(plan, planned.settings.frame, planned.cache);
   const std::vector<DevicePass> passes = passes_of(plan);
-  const SearchInput input{planned.lens, options, stops, plan, planned.settings.frame.pixel_pitch_mm};
+  const SearchInput input{planned.lens, options, stops, plan, planned.settings.frame.pixel_pitch_mm, context};
   RenderStatistics statistics;
   statistics.method = "tiled";
   const bool done = ordered_pipeline(

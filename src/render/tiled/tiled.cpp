@@ -154,11 +154,13 @@ TracedItem trace_item(const Job& job, std::size_t index, Workspace& workspace) {
 
   auto start = Clock::now();
   const pupils::PupilEffort effort = pupils::effort_for_grid(job.options.grid.rays);
-  const pupils::Pupil pupil = job.kept.find_window_pupil(
-      {item.ghost, item.light, item.lambda_nm, path.stop_radius_mm, stop.traced_iris(job.lens.iris), effort}, [&] {
-        pupils::PupilRays rays(path, tables, item.light, iris, window);
-        return find_pupil(rays, {.effort = effort}, workspace.grid);
-      });
+  const pupils::Pupil pupil =
+      job.kept.find_window_pupil({item.ghost, item.light, item.lambda_nm, path.stop_radius_mm,
+                                  stop.traced_iris(job.lens.iris), effort, &job.context},
+                                 [&] {
+                                   pupils::PupilRays rays(path, tables, item.light, iris, window);
+                                   return find_pupil(rays, {.effort = effort, .context = &job.context}, workspace.grid);
+                                 });
   out.counts.search_ms = ms_since(start);
   if (pupil.is_empty()) return out;
   count_rays(pupil.rays);

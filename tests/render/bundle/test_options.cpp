@@ -49,7 +49,8 @@ Image one_ghost(const LensState& lens, Ghost ghost, const Light& light, const te
   RenderCache cache;
   const StopTransmittances stops(lens, settings, nullptr, cache);
   pupils::KeptPupils kept(pupils::KeptPupils::key_of(lens));
-  const bundle::GridSource source{lens, settings.bundle, tables, stops, kept, nullptr};
+  const Context context;
+  const bundle::GridSource source{lens, settings.bundle, tables, stops, kept, nullptr, context};
   Image image(settings.frame.width, settings.frame.height, 3);
   for (const bundle::Item& item : bundle::items_of(plan, settings.bundle)) {
     const auto part = bundle::ItemRenderer(item, settings.frame, source, {}).render();

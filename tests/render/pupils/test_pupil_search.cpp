@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the search for boxes of the pupil, each against the rays of a dense grid.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
 #include <doctest/doctest.h>
 
 #include "render/pupils/clearance_grid.h"
+#include "render/pupils/kept_pupils.h"
 #include "render/pupils/meridian_scan.h"
 #include "render/pupils/pupil_search.h"
 #include "render/pupils/stop_newton_step.h"
@@ -131,4 +133,33 @@ TEST_CASE("boxes fitted at another wavelength grow to hold what gets through, an
   CHECK(holds(shrunk.box(), *open));
   CHECK(area_of(shrunk.box()) < 3.5 * area_of(*open));
   CHECK(fit({open->high + size, open->high + size * 1.5}).is_empty());
+}
+
+TEST_CASE("a search over a window that the caller cancels finds nothing, and is not kept") {
+  const Setting s("heliar", 11.0, {1, 4}, 0.2);
+  std::atomic<bool> cancel = false;
+  const Context context{.cancel = &cancel};
+  KeptPupils kept(KeptPupils::key_of(s.lens));
+  int searches = 0;
+  const auto find = [&] {
+    return kept.find_window_pupil(
+        {{1, 4}, s.light.source, 550.0, s.path.stop_radius_mm, Iris{}, PupilEffort::Finest, &context}, [&] {
+          ++searches;
+          PupilRays rays(s.packets(), s.window);
+          RayGrid grid;
+          return find_pupil(rays, {.context = &context}, grid);
+        });
+  };
+  cancel = true;
+  CHECK(find().is_empty());
+  cancel = false;
+  const Pupil found = find();
+  REQUIRE_FALSE(found.is_empty());
+  CHECK(find().box() == found.box());
+  CHECK(searches == 2);
+
+  // The same bits as without a caller to ask.
+  const Pupil alone = find_pupil(PupilRays(s.packets(), s.window), {});
+  CHECK(found.box() == alone.box());
+  CHECK(found.sensor_mm == alone.sensor_mm);
 }
