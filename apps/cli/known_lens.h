@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "cli/merged_sweep.h"
 #include "contrejour/expert/learn_lens.h"
+#include "contrejour/expert/merged_sweep.h"
 #include "contrejour/expert/parameter_values.h"
 
 namespace CLI {

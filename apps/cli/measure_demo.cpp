@@ -19,10 +19,10 @@
 #include "cli/long_task.h"
 #include "cli/measure_fit.h"
 #include "cli/options.h"
-#include "cli/station_file.h"
 #include "contrejour/expert/flare_prediction.h"
 #include "contrejour/expert/metrics.h"
 #include "contrejour/expert/settings.h"
+#include "contrejour/expert/station_file.h"
 #include "contrejour/expert/sweep.h"
 #include "contrejour/image_io.h"
 

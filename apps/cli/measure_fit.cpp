@@ -13,10 +13,10 @@
 #include "cli/command.h"
 #include "cli/fit_report.h"
 #include "cli/long_task.h"
-#include "cli/merged_sweep.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/merged_sweep.h"
 
 namespace contrejour::cli {
 namespace {

@@ -16,8 +16,8 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/raw_file.h"
-#include "cli/station_file.h"
 #include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/station_file.h"
 
 namespace contrejour::cli {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plate_modules/aces_config.h"
 
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -79,6 +80,38 @@ aces::TransformRcPtr rec1886_curve() {
   return curve;
 }
 
+// How a scene becomes light of a display.
+void add_view_transform(aces::Config& config, const char* name, const char* style) {
+  auto transform = aces::ViewTransform::Create(aces::REFERENCE_SPACE_SCENE);
+  transform->setName(name);
+  transform->setTransform(builtin(style, aces::TRANSFORM_DIR_FORWARD), aces::VIEWTRANSFORM_DIR_FROM_REFERENCE);
+  config.addViewTransform(transform);
+}
+
+// Light of a display as its codes, and the views on it.
+void add_display(aces::Config& config, const std::string& name, const char* style,
+                 std::initializer_list<const char*> views) {
+  auto space = aces::ColorSpace::Create(aces::REFERENCE_SPACE_DISPLAY);
+  const std::string space_name = name + " - Display";
+  space->setName(space_name.c_str());
+  space->setFamily("display");
+  space->setBitDepth(aces::BIT_DEPTH_F32);
+  space->setTransform(builtin(style, aces::TRANSFORM_DIR_FORWARD), aces::COLORSPACE_DIR_FROM_REFERENCE);
+  config.addColorSpace(space);
+  for (const char* view : views) config.addDisplayView(name.c_str(), view, view, space_name.c_str(), "", "", "");
+}
+
+// The output transforms of ACES 1 for displays of standard range, and none at all.
+void add_displays(aces::Config& config) {
+  constexpr const char *kVideo = "ACES SDR video", *kCinema = "ACES SDR cinema", *kPlain = "Un-tone-mapped";
+  add_view_transform(config, kVideo, "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0");
+  add_view_transform(config, kCinema, "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-CINEMA_1.0");
+  add_view_transform(config, kPlain, "UTILITY - ACES-AP0_to_CIE-XYZ-D65_BFD");
+  add_display(config, "sRGB", "DISPLAY - CIE-XYZ-D65_to_sRGB", {kVideo, kPlain});
+  add_display(config, "Rec.709 video", "DISPLAY - CIE-XYZ-D65_to_REC.1886-REC.709", {kVideo, kPlain});
+  add_display(config, "P3 D65", "DISPLAY - CIE-XYZ-D65_to_G2.6-P3-D65", {kCinema, kPlain});
+}
+
 }  // namespace
 
 aces::ConstConfigRcPtr aces_config() {
@@ -89,6 +122,7 @@ aces::ConstConfigRcPtr aces_config() {
   add_rec709_space(*config, "Linear Rec.709", nullptr);
   add_rec709_space(*config, "sRGB", srgb_curve());
   add_rec709_space(*config, "Rec.1886", rec1886_curve());
+  add_displays(*config);
   config->setRole("aces_interchange", "ACES2065-1");
   config->setRole("scene_linear", "ACEScg");
   return config;

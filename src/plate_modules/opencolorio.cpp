@@ -5,6 +5,8 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -49,6 +51,12 @@ std::optional<ColourSpace> known_linear(std::string name) {
   return std::nullopt;
 }
 
+tl::unexpected<Error> unknown_linear() {
+  return failure(ErrorCode::Unsupported,
+                 "the configuration has no role aces_interchange, and its role scene_linear is neither ACEScg nor "
+                 "linear Rec.709; add the role aces_interchange to it");
+}
+
 // From a space to the working space, and which one that is.
 struct ToWorking {
   ocio::GroupTransformRcPtr transform = ocio::GroupTransform::Create();
@@ -70,10 +78,7 @@ Result<ToWorking> to_working(const ocio::Config& config, const std::string& spac
   }
   const auto linear = config.getColorSpace(ocio::ROLE_SCENE_LINEAR);
   const auto known = linear ? known_linear(linear->getName()) : std::nullopt;
-  if (!known)
-    return failure(ErrorCode::Unsupported,
-                   "the configuration has no role aces_interchange, and its role scene_linear is neither ACEScg nor "
-                   "linear Rec.709; add the role aces_interchange to it");
+  if (!known) return unknown_linear();
   step->setDst(linear->getName());
   to.working = *known;
   return to;
@@ -102,6 +107,61 @@ Result<ColourConversion> open(const ColourRequest& request) {
   return ColourConversion{to->working, std::make_shared<const ocio::ConstCPUProcessorRcPtr>(cpu)};
 }
 
+// The working space as a view's source, and what leads there from it.
+Result<ColourConversion> open_view(const std::string& name_of_config, const ColourViewName& name) {
+  ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
+  const auto config = open_config(name_of_config);
+  if (std::string(config->getDisplayViewColorSpaceName(name.display.c_str(), name.view.c_str())).empty())
+    return failure(ErrorCode::InvalidArgument,
+                   fmt::format("the configuration has no view \"{}\" of a display \"{}\"", name.view, name.display),
+                   {name_of_config});
+  const auto interchange = interchange_of(*config);
+  const auto linear = config->getColorSpace(ocio::ROLE_SCENE_LINEAR);
+  const auto known = linear ? known_linear(linear->getName()) : std::nullopt;
+  if (!interchange && !known) return unknown_linear();
+  auto steps = ocio::GroupTransform::Create();
+  if (interchange) {
+    auto to_aces = ocio::BuiltinTransform::Create();
+    to_aces->setStyle("ACEScg_to_ACES2065-1");
+    steps->appendTransform(to_aces);
+  }
+  auto to_display = ocio::DisplayViewTransform::Create();
+  to_display->setSrc(interchange ? interchange->c_str() : linear->getName());
+  to_display->setDisplay(name.display.c_str());
+  to_display->setView(name.view.c_str());
+  steps->appendTransform(to_display);
+  const ocio::ConstCPUProcessorRcPtr cpu = config->getProcessor(steps)->getDefaultCPUProcessor();
+  return ColourConversion{interchange ? ColourSpace::AcesCg : *known,
+                          std::make_shared<const ocio::ConstCPUProcessorRcPtr>(cpu)};
+}
+
+// The names with the default moved to the front.
+template <class Item>
+void put_first(std::vector<Item>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) {
+    if constexpr (std::is_same_v<Item, ColourDisplay>)
+      return item.name == name;
+    else
+      return item == name;
+  });
+  if (found != items.end()) std::rotate(items.begin(), found, found + 1);
+}
+
+Result<std::vector<ColourDisplay>> displays_of(const std::string& name_of_config) {
+  ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
+  const auto config = open_config(name_of_config);
+  std::vector<ColourDisplay> displays;
+  for (int k = 0; k < config->getNumDisplays(); ++k) {
+    ColourDisplay display{config->getDisplay(k), {}};
+    for (int v = 0; v < config->getNumViews(display.name.c_str()); ++v)
+      display.views.emplace_back(config->getView(display.name.c_str(), v));
+    put_first(display.views, config->getDefaultView(display.name.c_str()));
+    displays.push_back(std::move(display));
+  }
+  put_first(displays, config->getDefaultDisplay());
+  return displays;
+}
+
 Result<void> apply(const ColourConversion& conversion, float* rgb, std::size_t pixels) {
   const auto& cpu = *static_cast<const ocio::ConstCPUProcessorRcPtr*>(conversion.transform.get());
   ocio::PackedImageDesc image(rgb, static_cast<long>(pixels), 1, 3);
@@ -124,6 +184,10 @@ extern "C" CONTREJOUR_API const ColourModule* contrejour_colour_module() {
   static const ColourModule module{
       kColourModuleVersion,
       [](const ColourRequest& request) { return guarded(request.config, [&] { return open(request); }); },
+      [](const std::string& config, const ColourViewName& name) {
+        return guarded(config, [&] { return open_view(config, name); });
+      },
+      [](const std::string& config) { return guarded(config, [&] { return displays_of(config); }); },
       [](const ColourConversion& conversion, float* rgb, std::size_t pixels) {
         return guarded("", [&] { return apply(conversion, rgb, pixels); });
       }};

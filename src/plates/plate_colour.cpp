@@ -4,12 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
-#include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/module.h"
 #include "base/scalar.h"
 #include "image/picture_header.h"
 #include "image/samples.h"
@@ -17,18 +13,6 @@
 
 namespace contrejour::inline internal {
 namespace {
-
-Result<const ColourModule*> colour_module() {
-  const auto function = module_function(kColourModuleName, kColourModuleFunction);
-  if (!function)
-    return failure(ErrorCode::Unsupported,
-                   fmt::format("colour spaces need OpenColorIO ({}); convert the picture to a scene-linear OpenEXR "
-                               "file, or build with libopencolorio-dev installed",
-                               function.error().to_string()));
-  const ColourModule* const module = reinterpret_cast<const ColourModule* (*)()>(*function)();
-  if (std::string_view(module->version) == kColourModuleVersion) return module;
-  return failure(ErrorCode::Unsupported, "the module for OpenColorIO belongs to another version; install both anew");
-}
 
 bool has_integers(const Picture& picture) {
   const SampleType type = picture.channels[static_cast<std::size_t>(picture.rgb_source[0])].type;
@@ -50,15 +34,6 @@ Pixels codes_of(const Picture& picture) {
     codes[i] = srgb_encode(a > 0.0F ? codes[i] / a : 0.0F);
   }
   return codes;
-}
-
-// Changes the primaries of linear colours.
-void change_primaries(Pixels& rgb, ColourSpace from, ColourSpace to) {
-  if (from == to) return;
-  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3) {
-    const Rgb changed = rgb_from_xyz(xyz_from_rgb({rgb[i], rgb[i + 1], rgb[i + 2]}, from), to);
-    for (std::size_t c = 0; c < 3; ++c) rgb[i + c] = static_cast<float>(changed[c]);
-  }
 }
 
 // own: the working space of colours that go to another space.

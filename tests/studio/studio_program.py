@@ -31,6 +31,8 @@ def scene(lens="heliar", **values):
 
 
 class StudioTest(unittest.TestCase):
+    environment_more = {}
+
     def setUp(self):
         holder = tempfile.TemporaryDirectory()
         self.addCleanup(holder.cleanup)
@@ -40,7 +42,7 @@ class StudioTest(unittest.TestCase):
     def environment(self, **more):
         keep = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         return {**keep, "XDG_STATE_HOME": str(self.folder / "state"), "XDG_DATA_HOME": str(self.folder / "data"),
-                "XDG_CACHE_HOME": str(self.folder / "cache"), "LIBGL_ALWAYS_SOFTWARE": "1", **more}
+                "XDG_CACHE_HOME": str(self.folder / "cache"), "LIBGL_ALWAYS_SOFTWARE": "1", **self.environment_more, **more}
 
     def xvfb(self, *command):
         return ["xvfb-run", "-a", "-s", "-screen 0 1600x900x24 -nolisten tcp", *map(str, command)]

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "studio/core/plate_frames.h"
+
 namespace contrejour::studio {
 namespace {
 
@@ -43,7 +45,9 @@ const char* name_of(LayersBy by) {
   return names[static_cast<std::size_t>(by)];
 }
 
-std::string plate_options(const SessionPlate& plate) {
+// A sequence by its pattern where all frames are meant, else by the file of the one at hand.
+std::string plate_options(const SessionPlate& given, const CommandChoice& choice) {
+  const SessionPlate plate = choice.kind == ExportKind::Frames ? given : plate_at(given, choice.frame);
   std::string text = " " + quoted(plate.file);
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) text += std::string(" --") + option + " " + quoted(value);
@@ -62,7 +66,9 @@ std::string output_options(const CommandChoice& choice, bool applies) {
     case ExportKind::Layers:
       return fmt::format(" --layers {} {} {}", name_of(choice.layers_by), applies ? "-o out.exr --flare-only" : "-o",
                          output);
-    case ExportKind::Frames: return fmt::format(" --frames {}-{} -o {}", choice.first, choice.last, output);
+    case ExportKind::Frames:
+      return fmt::format(" --frames {}-{}{} -o {}", choice.first, choice.last,
+                         choice.skips_missing ? " --missing skip" : "", output);
     case ExportKind::Look: return fmt::format(" --save-preset {} -o flare.exr", output);
     default: return " -o " + output;
   }
@@ -74,18 +80,21 @@ std::string command_of_session(const Document& document, const std::string& file
   if (choice.kind == ExportKind::Report) return "";
   if (choice.kind == ExportKind::Lens) return "contrejour lens convert " + quoted(file) + " " + quoted(choice.output);
   const bool applies = document.has_plate();
+  // One frame of a sequence is named: the session's plate is all of them.
+  const bool is_of_sequence = choice.kind != ExportKind::Frames && is_plate_sequence(document.plate.file);
   return fmt::format("contrejour {} --session {}", applies ? "apply" : "render", quoted(file)) +
-         output_options(choice, applies);
+         (is_of_sequence ? plate_options(document.plate, choice) : "") + output_options(choice, applies);
 }
 
 std::string command_of_values(const Document& document, const CommandChoice& choice) {
   const bool is_of_session = document.lens_was_edited || document.animation != Animation{};
-  if (is_of_session || choice.kind == ExportKind::Report || choice.kind == ExportKind::Frames) return "";
+  const bool is_of_frames = choice.kind == ExportKind::Frames && !is_plate_sequence(document.plate.file);
+  if (is_of_session || choice.kind == ExportKind::Report || is_of_frames) return "";
   if (choice.kind == ExportKind::Lens)
     return "contrejour lens convert " + quoted(document.lens_name) + " " + quoted(choice.output);
   const bool applies = document.has_plate();
   std::string command = fmt::format("contrejour {} {}", applies ? "apply" : "render", quoted(document.lens_name));
-  if (applies) command += plate_options(document.plate);
+  if (applies) command += plate_options(document.plate, choice);
   for (const auto& [name, texts] : document.texts)
     for (const std::string& text : texts)
       if (takes(applies, params::parameter(name))) command += option_of(params::parameter(name), text);

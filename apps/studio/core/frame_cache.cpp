@@ -8,6 +8,7 @@
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 #include "studio/core/keys.h"
+#include "studio/core/plate_frames.h"
 #include "studio/core/plate_picture.h"
 
 namespace contrejour::studio {
@@ -39,10 +40,12 @@ class CacheWorker {
     if (!lens) return nullptr;
     PictureOrder picture{order.revision, document.values(), std::make_shared<const LensState>(std::move(*lens))};
     picture.plate = order.plate;
+    if (is_plate_sequence(document.plate.file))
+      if (auto plate = plate_of(document.plate, frame)) picture.plate = std::move(*plate);
     const params::Values values = draft_values(picture, kPlayedLevel);
     auto image = image_of(picture, values, context);
     if (!image) return nullptr;
-    return std::make_shared<const DisplayAnswer>(shown(order, std::move(*image)));
+    return std::make_shared<const DisplayAnswer>(shown(order, *image, picture));
   }
 
   Result<Image> image_of(const PictureOrder& order, const params::Values& values, const Context& context) {
@@ -65,21 +68,27 @@ class CacheWorker {
     return std::move(flare->image);
   }
 
-  static DisplayAnswer shown(const CacheOrder& order, Image image) {
+  DisplayAnswer shown(const CacheOrder& order, const Image& image, const PictureOrder& picture) {
+    const bool has_plate = picture.plate != nullptr;
     DisplayAnswer answer;
     answer.picture.revision = order.revision;
-    answer.picture.has_plate = order.plate != nullptr;
-    if (!order.plate) answer.picture.pixel_area = kPlayedLevel.divisor * kPlayedLevel.divisor;
+    answer.picture.has_plate = has_plate;
+    if (!has_plate) answer.picture.pixel_area = kPlayedLevel.divisor * kPlayedLevel.divisor;
     answer.width = image.width;
     answer.height = image.height;
     answer.stops = order.stops;
-    answer.rgba = displayed(image, order.stops - std::log2(answer.picture.pixel_area), order.transform);
+    answer.picture.space = space_of_picture(picture);
+    answer.rgba = painter_
+                      .codes(image, answer.picture.space, order.stops - std::log2(answer.picture.pixel_area),
+                             order.transform, order.colour)
+                      .rgba;
     return answer;
   }
 
   std::shared_ptr<FrameCache> cache_;
   std::optional<Renderer> renderer_;
   PlatePictures plates_;
+  ViewPainter painter_;
 };
 
 }  // namespace

@@ -38,11 +38,12 @@ class FrameCache {
 struct CacheOrder {
   std::uint64_t revision = 0;
   std::shared_ptr<const Document> document;
-  std::shared_ptr<const Plate> plate;
+  std::shared_ptr<const Plate> plate;  // a still; that of a sequence is read for each frame
   int first = 1, last = 0;  // none: nothing is rendered any more
   int now = 1;  // the frames from here on come first
   double stops = 0;
   ViewTransform transform = ViewTransform::Preview;
+  ColourViewName colour = {};
 };
 
 // Published after each frame: how many are there.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/core/frame_export.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "contrejour/expert/settings.h"
 #include "studio/core/frame_values.h"
 #include "studio/core/picture_files.h"
+#include "studio/core/plate_frames.h"
 
 namespace contrejour::studio {
 namespace {
@@ -51,12 +54,71 @@ Result<DrawnPicture> draw_exposure(const FramesOrder& order, int frame, Renderer
   return DrawnPicture{std::move(*input), std::move(exposed->flare.image), true};
 }
 
+// With the plate of one frame.
+Result<FramesOrder> order_of_frame(const FramesOrder& order, int frame) {
+  FramesOrder one = order;
+  if (!is_plate_sequence(order.document.plate.file)) return one;
+  auto plate = plate_of(order.document.plate, frame);
+  if (!plate) return tl::unexpected(plate.error());
+  one.plate = std::move(*plate);
+  one.document.plate = plate_at(order.document.plate, frame);
+  return one;
+}
+
+Result<void> write_frame(const FramesOrder& one, int frame, Renderer& renderer, const Context& context) {
+  const auto pattern = parse_frame_pattern(one.pattern);
+  if (!pattern) return tl::unexpected(pattern.error());
+  auto file = OutputFile::create(file_of_frame(*pattern, frame));
+  if (!file) return tl::unexpected(file.error());
+  const auto drawn = parameters_change_during(one.document, frame)
+                         ? draw_exposure(one, frame, renderer, context)
+                         : draw_at(one, values_of_frame(one.document, frame), renderer, context);
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (auto ok = write_drawn(*file, *drawn, context); !ok) return ok;
+  return file->commit();
+}
+
+// Writes frames, all of whose plates must have the first one's size.
+class FrameWriter {
+ public:
+  explicit FrameWriter(const FramesOrder& order) : order_(order) {}
+
+  Result<void> write(int frame, Renderer& renderer, const Context& context) {
+    const auto one = order_of_frame(order_, frame);
+    if (!one) return tl::unexpected(one.error());
+    if (one->plate) {
+      const PixelWindow& window = one->plate->picture.display_window;
+      if (!window_) window_ = window;
+      if (window != *window_)
+        return failure(ErrorCode::InvalidArgument,
+                       fmt::format("frame {} of the plate has {} x {} pixels, but those before have {} x {}", frame,
+                                   window.width, window.height, window_->width, window_->height),
+                       {one->document.plate.file});
+    }
+    return write_frame(*one, frame, renderer, context);
+  }
+
+ private:
+  const FramesOrder& order_;
+  std::optional<PixelWindow> window_;
+};
+
+// The frames of a sequence that have no file.
+std::vector<int> missing_of(const FramesOrder& order) {
+  if (!is_plate_sequence(order.document.plate.file)) return {};
+  const auto present = frames_of_plate(order.document.plate);
+  return present ? missing_frames(*present, order.first, order.last) : std::vector<int>{};
+}
+
 void write_all(const FramesOrder& order, FramesJob::Control& control) {
-  FramesAnswer answer{0, order.last - order.first + 1, {}, false};
+  FramesAnswer answer{0, order.last - order.first + 1, missing_of(order), {}, false};
+  FrameWriter writer(order);
   auto renderer = Renderer::create();
+  if (static_cast<int>(answer.missing.size()) == answer.count) answer.error = "none of the plate's frames exists";
   for (int frame = order.first; renderer && frame <= order.last && !control.is_outdated(); ++frame) {
+    if (std::ranges::binary_search(answer.missing, frame)) continue;
     control.publish(answer);
-    if (auto ok = export_frame(order, frame, *renderer, {.cancel = &control.is_outdated()}); !ok) {
+    if (auto ok = writer.write(frame, *renderer, {.cancel = &control.is_outdated()}); !ok) {
       answer.error = ok.error().to_string();
       break;
     }
@@ -68,23 +130,14 @@ void write_all(const FramesOrder& order, FramesJob::Control& control) {
 
 }  // namespace
 
-Result<void> check_pattern(const std::string& pattern) {
+Result<void> check_pattern(const std::string& pattern, bool has_plate) {
   if (auto parsed = parse_frame_pattern(pattern); !parsed)
     return failure(ErrorCode::InvalidArgument, "give #### for the number of a frame, as in flare.####.exr", {pattern});
-  return check_picture_name(pattern, false);
+  return check_picture_name(pattern, has_plate);
 }
 
 Result<void> export_frame(const FramesOrder& order, int frame, Renderer& renderer, const Context& context) {
-  const auto pattern = parse_frame_pattern(order.pattern);
-  if (!pattern) return tl::unexpected(pattern.error());
-  auto file = OutputFile::create(file_of_frame(*pattern, frame));
-  if (!file) return tl::unexpected(file.error());
-  const auto drawn = parameters_change_during(order.document, frame)
-                         ? draw_exposure(order, frame, renderer, context)
-                         : draw_at(order, values_of_frame(order.document, frame), renderer, context);
-  if (!drawn) return tl::unexpected(drawn.error());
-  if (auto ok = write_drawn(*file, *drawn, context); !ok) return ok;
-  return file->commit();
+  return FrameWriter(order).write(frame, renderer, context);
 }
 
 FramesJob::Work frames_work() {

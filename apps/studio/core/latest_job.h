@@ -14,8 +14,13 @@
 #include <utility>
 
 #include "contrejour/context.h"
+#include "studio/core/thread_priority.h"
 
 namespace contrejour::studio {
+
+// Of a job's thread. What takes milliseconds and the window waits for has the interface's; what renders has a lower
+// one.
+enum class JobPriority { Background, Interface };
 
 template <class Request, class Answer>
 class LatestJob {
@@ -47,8 +52,8 @@ class LatestJob {
 
   using Work = std::function<void(const Request&, Control&)>;
 
-  LatestJob(Work work, std::function<void()> on_answer)
-      : work_(std::move(work)), on_answer_(std::move(on_answer)), thread_([this] { run(); }) {}
+  LatestJob(Work work, std::function<void()> on_answer, JobPriority priority = JobPriority::Background)
+      : work_(std::move(work)), on_answer_(std::move(on_answer)), priority_(priority), thread_([this] { run(); }) {}
 
   ~LatestJob() {
     {
@@ -85,6 +90,7 @@ class LatestJob {
 
  private:
   void run() {
+    if (priority_ == JobPriority::Background) lower_priority_of_this_thread();
     Control control(*this);
     while (auto request = next()) {
       work_(*request, control);
@@ -107,6 +113,7 @@ class LatestJob {
 
   Work work_;
   std::function<void()> on_answer_;  // after each answer and each end of work, on the job's thread
+  JobPriority priority_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Request> waiting_;

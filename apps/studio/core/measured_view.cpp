@@ -7,7 +7,8 @@
 
 #include "contrejour/expert/preview_exposure.h"
 #include "contrejour/expert/settings.h"
-#include "studio/core/display_job.h"
+#include "studio/core/measured_photographs.h"
+#include "studio/core/view_codes.h"
 
 namespace contrejour::studio {
 namespace {
@@ -17,11 +18,6 @@ constexpr double kBeyondRange = 1.1;  // of the pictures, where the file does no
 
 double half_width_of(const MeasuredFlare& flare) {
   return flare.half_field ? flare.half_field->x : kBeyondRange * flare.s_max;
-}
-
-TangentFrame frame_of(double half_width, int width, int height) {
-  const double focal_px = 0.5 * width / std::fmax(half_width, 1e-6);
-  return {width, height, focal_px, {0.5 * width, 0.5 * height}};
 }
 
 double value_of(const MeasuredGhost& ghost, GhostCurve curve, double s) {
@@ -37,9 +33,9 @@ double value_of(const MeasuredGhost& ghost, GhostCurve curve, double s) {
 Result<Image> kymograph_of(const MeasuredFlare& flare, double half_width, const Context& context) {
   Image rows(kKymographWidth, kKymographHeight);
   for (int y = 0; y < kKymographHeight; ++y) {
-    const double angle_deg = largest_angle_deg(flare) * (2.0 * y / (kKymographHeight - 1) - 1);
+    const double angle_deg = angle_of_row_deg(flare, y);
     const FlareLight light{{std::tan(angle_deg * params::kDegree_rad), 0}, {1, 1, 1}};
-    const auto row = render_measured(flare, {&light, 1}, frame_of(half_width, kKymographWidth, 1), context);
+    const auto row = render_measured(flare, {&light, 1}, measured_frame(half_width, kKymographWidth, 1), context);
     if (!row) return tl::unexpected(row.error());
     std::copy(row->pixels.begin(), row->pixels.end(), rows.row(y).begin());
   }
@@ -56,13 +52,26 @@ class MeasuredWorker {
     if (ok) ok = draw(answer, context);
     if (control.is_outdated()) return;
     if (!ok) {
-      answer = {order.file, nullptr, 0, 0, nullptr, {}, ok.error().to_string()};
+      answer = {};
+      answer.file = order.file;
+      answer.error = ok.error().to_string();
       opened_ = {};
     }
-    control.publish(std::move(answer));
+    // Photographs that are there already come with it.
+    if (!ok || !photographs_.are_of(order.sweep)) control.publish(answer);
+    if (ok && !order.sweep.empty()) show_photographs(order, std::move(answer), control);
   }
 
  private:
+  void show_photographs(const MeasuredOrder& order, MeasuredAnswer answer, MeasuredJob::Control& control) {
+    const Context context{.threads = 1, .cancel = &control.is_outdated()};
+    auto ok = photographs_.show(order, stops_, answer, context);
+    if (control.is_outdated()) return;
+    if (!ok) answer.error = ok.error().to_string();
+    control.publish(answer);
+    while (ok && !control.is_outdated() && photographs_.read_next(answer)) control.publish(answer);
+  }
+
   // The kymograph is that of the file, whatever the angle.
   Result<void> open(const MeasuredOrder& order, const Context& context) {
     if (opened_.file == order.file && opened_.kymograph) return {};
@@ -83,7 +92,7 @@ class MeasuredWorker {
   Result<void> draw(MeasuredAnswer& answer, const Context& context) const {
     const FlareLight light{{std::tan(answer.angle_deg * params::kDegree_rad), 0}, {1, 1, 1}};
     const auto picture = render_measured(*answer.flare, {&light, 1},
-                                         frame_of(answer.half_width, kMeasuredWidth, kMeasuredHeight), context);
+                                         measured_frame(answer.half_width, kMeasuredWidth, kMeasuredHeight), context);
     if (!picture) return tl::unexpected(picture.error());
     answer.picture = displayed(*picture, stops_, ViewTransform::Preview);
     return {};
@@ -91,6 +100,7 @@ class MeasuredWorker {
 
   MeasuredAnswer opened_;
   double stops_ = 0;
+  MeasuredPhotographs photographs_;
 };
 
 }  // namespace
@@ -101,6 +111,15 @@ const char* name_of(GhostCurve curve) {
 }
 
 double largest_angle_deg(const MeasuredFlare& flare) { return std::atan(flare.s_max) / params::kDegree_rad; }
+
+double angle_of_row_deg(const MeasuredFlare& flare, int row) {
+  return largest_angle_deg(flare) * (2.0 * row / (kKymographHeight - 1) - 1);
+}
+
+TangentFrame measured_frame(double half_width, int width, int height) {
+  const double focal_px = 0.5 * width / std::fmax(half_width, 1e-6);
+  return {width, height, focal_px, {0.5 * width, 0.5 * height}};
+}
 
 std::vector<MeasuredCurve> curves_of(const MeasuredFlare& flare, GhostCurve curve) {
   std::vector<MeasuredCurve> all;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A measured flare (.flare.toml) as its panel shows it: a kymograph, which is the row of pixels through the optical
-// centre for each angle of the light; the picture at one angle; its ghosts' parameters over the angle. Read and
-// rendered in the background. Thread-safety: as LatestJob; the rest is pure.
+// centre for each angle of the light; the picture at one angle; its ghosts' parameters over the angle; and, where the
+// folder of the sweep is known, the photographs beside it. Read and rendered in the background. Thread-safety: as
+// LatestJob; the rest is pure.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +34,26 @@ struct MeasuredCurve {
 [[nodiscard]] std::vector<MeasuredCurve> curves_of(const MeasuredFlare& flare, GhostCurve curve);
 
 [[nodiscard]] double largest_angle_deg(const MeasuredFlare& flare);
+[[nodiscard]] double angle_of_row_deg(const MeasuredFlare& flare, int row);  // of the kymograph
+// half_width: of the picture, as a tangent.
+[[nodiscard]] TangentFrame measured_frame(double half_width, int width, int height);
 
 struct MeasuredOrder {
   std::string file;
   double angle_deg = 0;
+  std::string sweep = {};  // the folder of the merged photographs; empty: not known
 };
 
+// The photograph of the station next to the angle, and the fit in its light. All pictures have the fit's exposure.
+struct MeasuredPhotograph {
+  std::size_t station = 0, count = 0;  // from 0; of the sweep
+  std::vector<std::uint32_t> captured, fitted, residual;
+  // Of all stations that have been read, as the kymograph; black where there is none.
+  std::shared_ptr<const std::vector<std::uint32_t>> kymograph;
+  std::size_t read = 0;  // stations
+};
+
+// Published several times while the photographs of a sweep are read.
 struct MeasuredAnswer {
   std::string file;
   std::shared_ptr<const MeasuredFlare> flare;  // null where there is an error
@@ -45,6 +61,8 @@ struct MeasuredAnswer {
   double half_width = 0;  // of both pictures, as a tangent
   std::shared_ptr<const std::vector<std::uint32_t>> kymograph;  // rows from the largest negative angle on
   std::vector<std::uint32_t> picture;
+  std::string sweep;
+  std::optional<MeasuredPhotograph> photograph;  // none: the sweep is not known, or `error` says why
   std::string error;
 };
 

@@ -86,9 +86,7 @@ class PictureWorker {
     PictureAnswer answer;
     answer.revision = order.revision;
     answer.has_plate = order.plate != nullptr;
-    answer.space =
-        params::colour_space(values, order.plate ? colour_space_of(order.plate->picture).value_or(ColourSpace::Rec709)
-                                                 : ColourSpace::Rec709);
+    answer.space = space_of_picture(order);
     const auto ready = set_renderer(order, values);
     auto picture = ready ? draw() : Result<PlatePictures::Picture>(tl::unexpected(ready.error()));
     if (picture) {
@@ -187,6 +185,11 @@ params::Values draft_values(const PictureOrder& order, const DraftLevel& level) 
   if (level.ghosts > 0 && is_whole && order.brightest.size() > level.ghosts)
     replace(values, "select", selection_of(order.brightest, level.ghosts));
   return values;
+}
+
+ColourSpace space_of_picture(const PictureOrder& order) {
+  const auto of_plate = order.plate ? colour_space_of(order.plate->picture) : std::nullopt;
+  return params::colour_space(order.values, of_plate.value_or(ColourSpace::Rec709));
 }
 
 PictureJob::Work picture_work() {

@@ -57,6 +57,9 @@ inline constexpr double kDraftTime_ms = 33.0;
 // The values that a draft of this level is rendered with.
 [[nodiscard]] params::Values draft_values(const PictureOrder& request, const DraftLevel& level);
 
+// The space of the picture that an order asks for.
+[[nodiscard]] ColourSpace space_of_picture(const PictureOrder& order);
+
 using PictureJob = LatestJob<PictureOrder, PictureAnswer>;
 [[nodiscard]] PictureJob::Work picture_work();
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,20 +18,22 @@ namespace contrejour::studio {
 
 struct PlateOrder {
   SessionPlate reference;
+  std::optional<int> frame = {};  // of a sequence; none: a still, or of a new sequence the first frame
   bool is_new = false;  // asked for by the user, in place of the document's
 };
 
 struct PlateAnswer {
-  PlateOrder order;
+  PlateOrder order;  // with the frame that was read
   std::shared_ptr<const Plate> plate;  // null where there is an error
+  std::vector<int> frames;  // of a sequence, those whose files exist
   std::string error;
 };
 
 using PlateJob = LatestJob<PlateOrder, PlateAnswer>;
 [[nodiscard]] PlateJob::Work plate_work();
 
-// Errors: those of read_plate.
-[[nodiscard]] Result<std::shared_ptr<const Plate>> plate_of(const SessionPlate& reference);
+// Errors: those of read_plate; Io for a frame without a file.
+[[nodiscard]] Result<std::shared_ptr<const Plate>> plate_of(const SessionPlate& reference, int frame = 0);
 
 struct DetectionOrder {
   std::shared_ptr<const Plate> plate;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plates of a studio's documents: read in the background, and the last few kept, so that undo finds them again.
-// Thread-safety: one thread; reading is on another one.
+// The plates of a studio's documents: read in the background, and the last few kept, so that undo and a step back to
+// the frame before find them again. Thread-safety: one thread; reading is on another one.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,14 @@ class Plates {
  public:
   explicit Plates(std::function<void()> wake) : job_(plate_work(), std::move(wake)) {}
 
-  // Reads a plate that the user asks for, or one of a document.
-  void open(const SessionPlate& plate) { job_.post({plate, true}); }
-  // Null while it is read, and where it cannot be.
-  [[nodiscard]] std::shared_ptr<const Plate> find(const SessionPlate& plate);
+  // Reads a plate that the user asks for. frame: of a sequence; none: its first one.
+  void open(const SessionPlate& plate) { job_.post({plate, std::nullopt, true}); }
+  // The plate of a document at a frame. Null while it is read, and where it cannot be.
+  [[nodiscard]] std::shared_ptr<const Plate> find(const SessionPlate& plate, int frame);
+  // Whether find() has asked for it, and there is no answer yet.
+  [[nodiscard]] bool is_reading(const SessionPlate& plate, int frame) const;
+  // The frames of a sequence that were there when one of them was read last.
+  [[nodiscard]] std::vector<int> frames(const SessionPlate& plate) const;
 
   [[nodiscard]] std::optional<PlateAnswer> take();
   [[nodiscard]] bool is_idle() const { return job_.is_idle(); }
@@ -28,7 +32,7 @@ class Plates {
   static constexpr std::size_t kMostKept = 4;
 
   std::vector<PlateAnswer> kept_;  // the latest last
-  SessionPlate asked_for_;
+  std::optional<PlateOrder> asked_for_;
   PlateJob job_;
 };
 

@@ -41,11 +41,11 @@ std::vector<StarLight> stars_of(const Document& document) {
 Studio::Studio(std::string how_opened, Document first, StudioSettings settings)
     : history_(std::move(how_opened), std::move(first)), look_folders_(settings.looks),
       looks_(all_looks(settings.looks.own)), autosave_(settings.autosave_folder),
-      picture_job_(picture_work(), settings.wake), display_job_(display_work(), settings.wake),
-      figures_job_(figures_work(), settings.wake), section_job_(section_work(), settings.wake),
+      picture_job_(picture_work(), settings.wake), display_job_(display_work(), settings.wake, JobPriority::Interface),
+      figures_job_(figures_work(), settings.wake), section_job_(section_work(), settings.wake, JobPriority::Interface),
       export_job_([](const std::function<std::string()>& work, auto& control) { control.publish(work()); },
                   settings.wake),
-      plates_(settings.wake), detection_job_(detection_work(), settings.wake),
+      plates_(settings.wake), detection_job_(detection_work(), settings.wake), views_job_(views_work(), settings.wake),
       compare_job_(compare_work(), settings.wake), thumbnail_job_(thumbnail_work(), settings.wake),
       point_spread_job_(point_spread_work(), settings.wake), frames_job_(frames_work(), settings.wake),
       cache_job_(cache_work(frame_cache_), settings.wake), measured_job_(measured_work(), settings.wake) {
@@ -113,15 +113,23 @@ void Studio::document_changed() {
 }
 
 void Studio::post_work() {
-  const params::Values values = document().values();
+  if (is_playing()) play(false);
+  post_picture();
+  post_point_spread();
+  figures_job_.post({revision_, document().values(), lens_, selection.light});
+  refresh_section();
+}
+
+// While its plate is read the picture before stays: the answer of the reading calls this again.
+void Studio::post_picture() {
+  frame_of_picture_ = view.frame;
+  auto plate = this->plate();
+  if (!plate && plates_.is_reading(document().plate, view.frame)) return;
   std::vector<Ghost> brightest;
   for (const GhostFigures& f : figures_)
     if (has_ghost(*lens_, f.ghost)) brightest.push_back(f.ghost);
-  if (is_playing()) play(false);
-  picture_job_.post({revision_, values, lens_, stars_of(document()), plate(), std::move(brightest)});
-  post_point_spread();
-  figures_job_.post({revision_, values, lens_, selection.light});
-  refresh_section();
+  picture_job_.post(
+      {revision_, document().values(), lens_, stars_of(document()), std::move(plate), std::move(brightest)});
 }
 
 void Studio::refresh_section() {
@@ -150,6 +158,7 @@ void Studio::refresh_display() {
   const auto stops = params::parse_real(exposure);
   DisplayOrder order{picture_};
   order.transform = view.transform;
+  order.colour = view.colour;
   order.automatic = !stops.has_value();
   order.stops = stops.value_or(0.0);
   order.compare = compare_;
@@ -161,6 +170,7 @@ void Studio::take_display() {
   auto shown = display_job_.take();
   if (!shown) return;
   if (is_playing()) return;
+  if (!shown->error.empty() && shown->error != shown_.error) take_problem(shown->error);
   shown_ = std::move(*shown);
   ++shown_count_;
   ++changes_;
@@ -205,9 +215,9 @@ void Studio::update() {
 
 bool Studio::is_idle() const {
   return picture_job_.is_idle() && display_job_.is_idle() && figures_job_.is_idle() && section_job_.is_idle() &&
-         export_job_.is_idle() && plates_.is_idle() && detection_job_.is_idle() && compare_job_.is_idle() &&
-         thumbnail_job_.is_idle() && point_spread_job_.is_idle() && frames_job_.is_idle() && cache_job_.is_idle() &&
-         measured_job_.is_idle();
+         export_job_.is_idle() && plates_.is_idle() && detection_job_.is_idle() && views_job_.is_idle() &&
+         compare_job_.is_idle() && thumbnail_job_.is_idle() && point_spread_job_.is_idle() && frames_job_.is_idle() &&
+         cache_job_.is_idle() && measured_job_.is_idle();
 }
 
 }  // namespace contrejour::studio

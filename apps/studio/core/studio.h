@@ -28,6 +28,7 @@
 #include "studio/core/plates.h"
 #include "studio/core/point_spread.h"
 #include "studio/core/view.h"
+#include "studio/core/views_job.h"
 
 namespace contrejour::studio {
 
@@ -57,7 +58,8 @@ class Studio {
 
   bool open_session(const std::string& file);
   bool open_lens(const std::string& name_or_file);  // a step of the history
-  // Reads it in the background; a step of the history once it is there.
+  // Reads it in the background; a step of the history once it is there. The frames of a sequence ("plate.####.exr")
+  // become the timeline's.
   bool open_plate(const std::string& file);
   void close_plate();
   // Finds the plate's lights in the background; a step of the history that puts them in place of the lights. False:
@@ -71,8 +73,10 @@ class Studio {
   void stop_exporting_frames();
 
   // A measured flare is looked at beside the document, of which it is no part.
-  void open_measured(const std::string& file) { measured_job_.post({file, 0}); }
-  void choose_measured_angle(double angle_deg) { measured_job_.post({measured_.file, angle_deg}); }
+  void open_measured(const std::string& file);
+  void choose_measured_angle(double angle_deg) { measured_job_.post({measured_.file, angle_deg, measured_sweep_}); }
+  // The folder of the merged photographs that it was learned from.
+  void open_measured_sweep(const std::string& folder);
 
   // Keys and frames (keys.h). What has keys is at its value of the frame; this is no step of the history.
   void go_to_frame(int frame);
@@ -108,7 +112,9 @@ class Studio {
   [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // of the first figures
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
-  [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate); }
+  [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate, view.frame); }
+  // Of a plate that is a sequence: the frames whose files exist.
+  [[nodiscard]] std::vector<int> plate_frames() const { return plates_.frames(document().plate); }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   [[nodiscard]] const CompareView& compare_view() const { return compare_; }
   [[nodiscard]] const std::optional<Comparison>& comparison() const { return comparison_; }
@@ -116,6 +122,7 @@ class Studio {
   [[nodiscard]] const Thumbnails& thumbnails() const { return thumbnails_; }
   [[nodiscard]] const PointSpreadAnswer& point_spread() const { return point_spread_; }
   [[nodiscard]] std::uint64_t point_spread_count() const { return point_spread_count_; }  // of those taken so far
+  [[nodiscard]] const std::optional<ViewsAnswer>& colour_views() const { return colour_views_; }  // none yet
   [[nodiscard]] const MeasuredAnswer& measured() const { return measured_; }
   [[nodiscard]] std::uint64_t measured_count() const { return measured_count_; }
   [[nodiscard]] const FramesAnswer& exported_frames() const { return exported_frames_; }
@@ -129,6 +136,7 @@ class Studio {
   // A panel that shows them asks for them while it is open: they cost time that the picture needs.
   void want_point_spread(bool wanted);
   void want_thumbnails();
+  void want_colour_views();  // those of the OpenColorIO configuration
 
   [[nodiscard]] std::vector<LostWork> lost_work() const { return autosave_.lost_work(); }
   void autosave_now() { static_cast<void>(autosave_.save(document(), file_, true)); }
@@ -142,12 +150,14 @@ class Studio {
   bool refuse(const Error& error, const std::string& key);
   void document_changed();
   void post_work();
+  void post_picture();
   void take_view(const Document& document);
   void take_display();
   void take_section(SectionAnswer section);
   void take_problem(const std::string& problem);
   void say(std::string message);
   void take_plate(PlateAnswer answer);
+  void take_new_plate(const PlateAnswer& answer);
   void take_detection(const DetectionAnswer& answer);
   void take_exported_frames(const FramesAnswer& answer);
   void take_background_work();
@@ -175,7 +185,10 @@ class Studio {
   PointSpreadAnswer point_spread_;
   std::uint64_t point_spread_count_ = 0, measured_count_ = 0;
   MeasuredAnswer measured_;
-  bool wants_point_spread_ = false;
+  std::string measured_sweep_;  // asked for last
+  std::optional<ViewsAnswer> colour_views_;
+  bool wants_point_spread_ = false, wants_colour_views_ = false;
+  int frame_of_picture_ = 0;  // for which the picture was asked for last
   FramesAnswer exported_frames_;
   std::shared_ptr<FrameCache> frame_cache_ = std::make_shared<FrameCache>();
   std::optional<std::chrono::steady_clock::time_point> playing_since_;
@@ -190,6 +203,7 @@ class Studio {
   LatestJob<std::function<std::string()>, std::string> export_job_;
   Plates plates_;
   DetectionJob detection_job_;
+  ViewsJob views_job_;
   CompareJob compare_job_;
   ThumbnailJob thumbnail_job_;
   PointSpreadJob point_spread_job_;

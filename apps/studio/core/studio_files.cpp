@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/expert/frame_range.h"
 #include "contrejour/expert/output_file.h"
 #include "studio/core/lights.h"
+#include "studio/core/plate_frames.h"
 #include "studio/core/studio.h"
 
 namespace contrejour::studio {
@@ -62,7 +64,7 @@ bool Studio::save_session(const std::string& file) {
 
 bool Studio::open_plate(const std::string& file) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(file, code))
+  if (!std::filesystem::is_regular_file(file, code) && !is_plate_sequence(file))
     return refuse({ErrorCode::Io, "there is no such file", {file}}, "plate");
   message_ = fmt::format("reading {} ...", file);
   problem_.clear();
@@ -75,14 +77,26 @@ void Studio::close_plate() {
 }
 
 void Studio::take_plate(PlateAnswer answer) {
-  if (!answer.plate) return take_problem(answer.error);
-  if (!answer.order.is_new) return post_work();  // a document's, which waits for it
+  if (!answer.plate) take_problem(answer.error);
+  if (!answer.order.is_new) return post_picture();  // a document's, which waits for it
+  if (answer.plate) take_new_plate(answer);
+}
+
+void Studio::take_new_plate(const PlateAnswer& answer) {
   const Image& rgb = answer.plate->picture.rgb;
   const std::string name = std::filesystem::path(answer.order.reference.file).filename().string();
+  std::string frames;
+  if (answer.order.frame) {
+    view.first_frame = std::max(0, answer.frames.front());
+    view.last_frame = std::max(view.first_frame, answer.frames.back());
+    go_to_frame(*answer.order.frame);
+    frames = fmt::format(", frames {}", frame_range_text(answer.frames));
+  }
   if (edit(fmt::format("open plate {}", name), "", [&](const Document& d) {
         return Result<Document>(with_plate(d, answer.order.reference, rgb.width, rgb.height));
       }))
-    say(fmt::format("{}: {} \u00d7 {}. Shift+L puts lights where it is bright.", name, rgb.width, rgb.height));
+    say(fmt::format("{}: {} \u00d7 {}{}. Shift+L puts lights where it is bright.", name, rgb.width, rgb.height,
+                    frames));
 }
 
 bool Studio::detect_lights() {
@@ -108,6 +122,17 @@ void Studio::take_detection(const DetectionAnswer& answer) {
                     count == 1 ? "is" : "are", count == 1 ? "a light" : "lights"));
 }
 
+void Studio::open_measured(const std::string& file) {
+  measured_sweep_.clear();
+  measured_job_.post({file, 0, ""});
+}
+
+void Studio::open_measured_sweep(const std::string& folder) {
+  problem_.clear();
+  measured_sweep_ = folder;
+  choose_measured_angle(measured_.angle_deg);
+}
+
 bool Studio::save_look(const std::string& name) {
   if (auto ok = save_own_look(look_folders_.own, name, document()); !ok) return refuse(ok.error(), "look");
   looks_ = all_looks(look_folders_.own);
@@ -118,8 +143,8 @@ bool Studio::save_look(const std::string& name) {
 }
 
 bool Studio::export_frames(const std::string& pattern) {
-  if (auto ok = check_pattern(pattern); !ok) return refuse(ok.error(), "export");
-  exported_frames_ = {0, view.last_frame - view.first_frame + 1, {}, false};
+  if (auto ok = check_pattern(pattern, document().has_plate()); !ok) return refuse(ok.error(), "export");
+  exported_frames_ = {0, view.last_frame - view.first_frame + 1, {}, {}, false};
   frames_job_.post({document(), plate(), pattern, view.first_frame, view.last_frame});
   say(fmt::format("writing {} frames in the background ...", exported_frames_.count));
   return true;
@@ -130,7 +155,9 @@ void Studio::stop_exporting_frames() { frames_job_.post({}); }
 void Studio::take_exported_frames(const FramesAnswer& answer) {
   exported_frames_ = answer;
   if (!answer.error.empty()) return take_problem(answer.error);
-  say(answer.is_over ? fmt::format("wrote {} of {} frames", answer.done, answer.count)
+  const std::string missing =
+      answer.missing.empty() ? "" : fmt::format("; the plate has no frames {}", frame_range_text(answer.missing));
+  say(answer.is_over ? fmt::format("wrote {} of {} frames{}", answer.done, answer.count, missing)
                      : fmt::format("writing frame {} of {} ...", answer.done + 1, answer.count));
 }
 
@@ -139,6 +166,7 @@ bool Studio::export_as(ExportKind kind, const std::string& file, LayersBy layers
   if (kind == ExportKind::Frames) return export_frames(file);
   message_ = fmt::format("writing {} ...", file);
   ExportOrder order{kind, file, document(), lens_, plate(), layers_by, figures_};
+  order.document.plate = plate_at(document().plate, view.frame);
   export_job_.post([order = std::move(order)] {
     const auto done = export_file(order);
     return done ? fmt::format("wrote {}", order.file) : done.error().to_string();

@@ -9,6 +9,7 @@
 #include "contrejour/expert/parameter_text.h"
 #include "contrejour/expert/settings.h"
 #include "studio/core/keys.h"
+#include "studio/core/plate_frames.h"
 #include "studio/core/studio.h"
 
 namespace contrejour::studio {
@@ -24,6 +25,10 @@ void Studio::take_background_work() {
   if (auto detection = detection_job_.take()) take_detection(*detection);
   if (auto frames = frames_job_.take()) take_exported_frames(*frames);
   if (cache_job_.take()) ++changes_;
+  if (auto views = views_job_.take()) {
+    colour_views_ = std::move(*views);
+    ++changes_;
+  }
   if (auto comparison = compare_job_.take()) {
     comparison_ = std::move(comparison->figures);
     ++changes_;
@@ -48,9 +53,13 @@ void Studio::take_background_work() {
 void Studio::go_to_frame(int frame) {
   if (is_playing()) play(false);
   view.frame = std::clamp(frame, view.first_frame, view.last_frame);
-  if (document().animation == Animation{}) return;
-  Document then = at_frame(document(), view.frame);
-  if (then.texts == document().texts) return;
+  const bool is_other_plate = view.frame != frame_of_picture_ && is_plate_sequence(document().plate.file);
+  if (is_other_plate && problem_key_.empty()) problem_.clear();  // that of the frame before
+  Document then = document().animation == Animation{} ? document() : at_frame(document(), view.frame);
+  if (then.texts == document().texts) {
+    if (is_other_plate) post_picture();
+    return;
+  }
   auto lens = params::lens_of(*then.lens, then.values());
   if (!lens) return take_problem(lens.error().to_string());
   history_.replace_now(std::move(then));
@@ -68,10 +77,13 @@ void Studio::play(bool plays) {
   }
   if (is_playing()) return;
   playing_from_ = view.frame;
-  CacheOrder order{revision_, history_.shared_now(), plate(), view.first_frame, view.last_frame};
+  const bool is_sequence = is_plate_sequence(document().plate.file);
+  CacheOrder order{revision_, history_.shared_now(), is_sequence ? nullptr : plate(), view.first_frame,
+                   view.last_frame};
   order.now = std::clamp(view.frame, view.first_frame, view.last_frame);
   order.stops = shown_.stops;
   order.transform = view.transform;
+  order.colour = view.colour;
   cache_job_.post(std::move(order));
   playing_since_ = std::chrono::steady_clock::now();
 }
@@ -145,6 +157,10 @@ void Studio::want_point_spread(bool wanted) {
 
 void Studio::post_point_spread() {
   if (wants_point_spread_) point_spread_job_.post({document().values(), lens_, selection.light});
+}
+
+void Studio::want_colour_views() {
+  if (!std::exchange(wants_colour_views_, true)) views_job_.post({});
 }
 
 void Studio::want_thumbnails() { thumbnail_job_.post({looks_, look_folders_.thumbnails}); }

@@ -16,6 +16,7 @@ std::string json_of_view(const View& view) {
   return nlohmann::json{{"zoom", view.zoom},
                         {"pan", {view.pan.x, view.pan.y}},
                         {"transform", static_cast<int>(view.transform)},
+                        {"colour-view", {view.colour.display, view.colour.view}},
                         {"handles", view.shows_handles},
                         {"ghosts", view.shows_ghosts},
                         {"frame", view.frame},
@@ -42,10 +43,17 @@ View view_of_json(const std::string& text) {
     const auto found = json.find(key);
     return found == json.end() || !found->is_boolean() || found->get<bool>();
   };
-  const auto frame = [](double value) { return static_cast<int>(std::clamp(value, 1.0, kMostFrames)); };
+  const auto colour_view = [&] {
+    const auto found = json.find("colour-view");
+    const bool is_pair = found != json.end() && found->is_array() && found->size() == 2 && (*found)[0].is_string() &&
+                         (*found)[1].is_string();
+    return is_pair ? ColourViewName{(*found)[0].get<std::string>(), (*found)[1].get<std::string>()} : ColourViewName{};
+  };
+  const auto frame = [](double value) { return static_cast<int>(std::clamp(value, 0.0, kMostFrames)); };
   view.zoom = std::clamp(number("zoom", 1.0), 0.1, 32.0);
   view.pan = pair("pan", {});
-  view.transform = static_cast<ViewTransform>(std::clamp(static_cast<int>(number("transform", 0)), 0, 2));
+  view.transform = static_cast<ViewTransform>(std::clamp(static_cast<int>(number("transform", 0)), 0, 3));
+  view.colour = colour_view();
   view.shows_handles = flag("handles");
   view.shows_ghosts = flag("ghosts");
   const Vec2 frames = pair("frames", {1, 48});

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contrejour/expert/vec.h"
-#include "studio/core/display_job.h"
+#include "studio/core/view_codes.h"
 
 namespace contrejour::studio {
 
@@ -16,6 +16,7 @@ struct View {
   double zoom = 1.0;  // of the picture that just fits
   Vec2 pan;  // of its middle, in parts of the fitting picture's size
   ViewTransform transform = ViewTransform::Preview;
+  ColourViewName colour;  // of ViewTransform::Colour
   bool shows_handles = true;
   bool shows_ghosts = true;  // outline of the selected ghost
   int frame = 1, first_frame = 1, last_frame = 48;  // of the timeline

@@ -9,6 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include "contrejour/expert/flare_source.h"
+#include "studio/core/plate_frames.h"
 #include "studio/ui/file_dialog.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
@@ -68,6 +69,12 @@ bool open_file(Ui& ui) {
   return is_session(ui.state.path) ? ui.studio.open_session(ui.state.path) : ui.studio.open_lens(ui.state.path);
 }
 
+// A file in the folder stands for it.
+bool open_sweep(Ui& ui) {
+  ui.studio.open_measured_sweep(folder_of(ui.state.path).lexically_normal().string());
+  return true;
+}
+
 bool save_file(Ui& ui) {
   if (!is_session(ui.state.path)) ui.state.path += ".session.json";
   const bool saved = ui.studio.save_session(ui.state.path);
@@ -112,10 +119,26 @@ void draw_quit(Ui& ui) {
   if (button(ui, "quit/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
 }
 
+// Takes the whole sequence that the file chosen is a frame of.
+void draw_sequence_choice(Ui& ui) {
+  const auto sequence = sequence_of_file(ui.state.path);
+  ImGui::BeginDisabled(!sequence);
+  const std::string label =
+      fmt::format("Take the sequence {}", sequence ? std::filesystem::path(*sequence).filename().string() : "");
+  if (button(ui, "dialog/sequence", label.c_str())) ui.state.path = *sequence;
+  ImGui::EndDisabled();
+}
+
+void draw_plate_choice(Ui& ui) {
+  draw_sequence_choice(ui);
+  draw_file_dialog(ui, "Open", [&] { return ui.studio.open_plate(ui.state.path); });
+}
+
 void draw_content(Ui& ui) {
   switch (ui.state.dialog) {
     case Dialog::OpenLens: return draw_file_dialog(ui, "Open", [&] { return open_file(ui); });
-    case Dialog::OpenPlate: return draw_file_dialog(ui, "Open", [&] { return ui.studio.open_plate(ui.state.path); });
+    case Dialog::OpenPlate: return draw_plate_choice(ui);
+    case Dialog::OpenSweep: return draw_file_dialog(ui, "Open", [&] { return open_sweep(ui); });
     case Dialog::SaveAs: return draw_file_dialog(ui, "Save", [&] { return save_file(ui); });
     case Dialog::Export: return draw_export_dialog(ui);
     case Dialog::Recover: return draw_recovery(ui);
@@ -125,8 +148,14 @@ void draw_content(Ui& ui) {
 }
 
 const char* title_of(Dialog dialog) {
-  static constexpr const char* titles[] = {"",       "Open a lens or a session", "Open a plate",   "Save the session",
-                                           "Export", "Recover unsaved work",     "Unsaved changes"};
+  static constexpr const char* titles[] = {"",
+                                           "Open a lens or a session",
+                                           "Open a plate",
+                                           "Open the folder of merged photographs",
+                                           "Save the session",
+                                           "Export",
+                                           "Recover unsaved work",
+                                           "Unsaved changes"};
   return titles[static_cast<std::size_t>(dialog)];
 }
 

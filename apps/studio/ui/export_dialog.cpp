@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "studio/core/command_line.h"
+#include "studio/core/plate_frames.h"
 #include "studio/ui/file_dialog.h"
 #include "studio/ui/theme.h"
 
@@ -55,8 +56,15 @@ void draw_command(Ui& ui, const char* what, const std::string& id, const std::st
 void draw_commands(Ui& ui) {
   const Document& document = ui.studio.document();
   const View& view = ui.studio.view;
-  const CommandChoice choice{ui.state.export_kind, ui.state.path, static_cast<LayersBy>(ui.state.export_layers),
-                             view.first_frame, view.last_frame};
+  const auto frames = ui.studio.plate_frames();
+  const CommandChoice choice{
+      .kind = ui.state.export_kind,
+      .output = ui.state.path,
+      .layers_by = static_cast<LayersBy>(ui.state.export_layers),
+      .first = view.first_frame,
+      .last = view.last_frame,
+      .frame = view.frame,
+      .skips_missing = !frames.empty() && !missing_frames(frames, view.first_frame, view.last_frame).empty()};
   const bool is_saved = !ui.studio.file().empty() && ui.studio.is_saved();
   const std::string of_values = command_of_values(document, choice);
   const std::string of_session = is_saved ? command_of_session(document, ui.studio.file(), choice) : "";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/expert/frame_range.h"
 #include "contrejour/expert/parameter_text.h"
 #include "studio/core/lights.h"
 #include "studio/ui/panels.h"
@@ -118,7 +119,9 @@ bool draw_light(Ui& ui, std::size_t index) {
 void draw_plate_line(Ui& ui) {
   const Document& document = ui.studio.document();
   if (!document.has_plate()) return;
-  const std::string name = std::filesystem::path(document.plate.file).filename().string();
+  std::string name = std::filesystem::path(document.plate.file).filename().string();
+  if (const auto frames = ui.studio.plate_frames(); !frames.empty())
+    name += fmt::format(", frames {}", frame_range_text(frames));
   ImGui::AlignTextToFramePadding();
   fitting_text(fmt::format("Plate: {}", name), ImGui::GetContentRegionAvail().x - scaled(70), colours::kDim);
   ui.registry.record("lights/plate", document.plate.file);

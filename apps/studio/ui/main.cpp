@@ -23,6 +23,10 @@ constexpr int kDone = 0, kFailed = 1, kUsage = 2;
 constexpr double kIdleWait_s = 0.5;  // autosave and the caret need no more
 constexpr double kBusyWait_s = 1.0 / 60;
 constexpr int kSettlingFrames = 3;
+// While pictures are rendered, the interface draws as often as a display shows frames, and less often where drawing
+// takes longer than this part of the time: without a graphics card each frame takes from the pictures.
+constexpr double kMostOfTime = 0.4;
+constexpr double kLeastFrameRate = 30;
 
 struct Options {
   std::string file, script, state_folder;
@@ -86,16 +90,47 @@ void answer_window(Window& window, Interface& interface) {
   if (const std::string file = window.dropped_file(); !file.empty()) interface.open_file(file);
 }
 
+// The time between the starts of two frames while something is rendered.
+class FrameRate {
+ public:
+  void frame(double from_s, double to_s) {
+    constexpr double kWeight = 0.1;
+    started_s_ = from_s;
+    duration_s_ += kWeight * (to_s - from_s - duration_s_);
+  }
+  [[nodiscard]] double next_start_s() const {
+    return started_s_ + std::clamp(duration_s_ / kMostOfTime, kBusyWait_s, 1 / kLeastFrameRate);
+  }
+
+ private:
+  double started_s_ = 0, duration_s_ = 0;
+};
+
+// A picture that comes meanwhile is shown at once.
+void rest_until(double time_s, Window& window, Studio& studio) {
+  const std::uint64_t shown = studio.shown_count();
+  for (double left = time_s - glfwGetTime(); left > 0 && studio.shown_count() == shown; left = time_s - glfwGetTime()) {
+    window.rest(left);
+    studio.update();
+  }
+}
+
 // Until the user, or the script, quits.
-int run_frames(Window& window, Interface& interface, std::optional<Script>& script) {
+int run_frames(Window& window, Interface& interface, std::optional<Script>& script, bool as_fast_as_possible) {
   int settling = 0;  // frames until what an input has opened or lit up is drawn
+  FrameRate rate;
   while (!interface.wants_to_quit() && !(script && script->wants_to_quit())) {
     const bool scripted = script && !script->is_done();
     const bool busy = settling > 0 || interface.needs_frame();
+    const std::uint64_t shown = interface.studio().shown_count();
     wait_for_reason(window, interface.studio(), scripted ? script->rest_s() : busy ? kBusyWait_s : kIdleWait_s);
+    if (!as_fast_as_possible && !interface.studio().is_idle() && interface.studio().shown_count() == shown)
+      rest_until(rate.next_start_s(), window, interface.studio());
     answer_window(window, interface);
     settling = window.input().is_empty() ? std::max(0, settling - 1) : kSettlingFrames;
+    const double start = glfwGetTime();
     if (auto ok = run_frame(window, interface, script); !ok) return fail(ok.error());
+    rate.frame(start, glfwGetTime());
     window.set_title(title_of(interface.studio()));
   }
   return kDone;
@@ -115,7 +150,7 @@ int run(const Options& options) {
   Studio studio("first scene", first_document(), {Window::wake, copies, usual_look_folders()});
   Interface interface(studio);
   if (!options.file.empty()) interface.open_file(options.file);
-  return run_frames(**window, interface, script);
+  return run_frames(**window, interface, script, !options.window.waits_for_display);
 }
 
 int run_checked(int argc, char** argv) {

@@ -119,6 +119,7 @@ std::string Interface::state_json() const {
                       {"tracks", json_of_tracks(document)},
                       {"compare", json_of_compare(studio_)},
                       {"plate", document.plate.file},
+                      {"plate_frames", studio_.plate_frames()},
                       {"thumbnails", studio_.thumbnails().size()},
                       {"clipboard", ImGui::GetClipboardText() != nullptr ? ImGui::GetClipboardText() : ""},
                       {"file", studio_.file()},

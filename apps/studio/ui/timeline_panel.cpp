@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "studio/core/plate_frames.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
@@ -30,7 +31,7 @@ struct TimelineMap {
 
 void draw_frame_number(Ui& ui, const char* id, int& frame, const char* format, const char* help) {
   ImGui::SetNextItemWidth(scaled(76));
-  ImGui::DragInt(fmt::format("##{}", id).c_str(), &frame, 0.2F, 1, 100000, format, ImGuiSliderFlags_AlwaysClamp);
+  ImGui::DragInt(fmt::format("##{}", id).c_str(), &frame, 0.2F, 0, 100000, format, ImGuiSliderFlags_AlwaysClamp);
   ui.registry.record(fmt::format("timeline/{}", id), fmt::format("{}", frame));
   tip(help);
 }
@@ -41,7 +42,7 @@ void draw_range(Ui& ui) {
   ImGui::SameLine(0, scaled(4));
   draw_frame_number(ui, "last", view.last_frame, "to %d", "The last frame of the shot");
   view.last_frame = std::max(view.last_frame, view.first_frame);
-  view.frame = std::clamp(view.frame, view.first_frame, view.last_frame);
+  if (view.frame < view.first_frame || view.frame > view.last_frame) ui.studio.go_to_frame(view.frame);
   ImGui::SameLine(0, scaled(4));
   auto rate = static_cast<float>(view.frames_per_second);
   ImGui::SetNextItemWidth(scaled(64));
@@ -77,6 +78,19 @@ void draw_controls(Ui& ui) {
   draw_light_key(ui);
 }
 
+// The frames of a sequence, with gaps in red where one is missing.
+void draw_plate_frames(const Ui& ui, const TimelineMap& map, ImVec2 at) {
+  const auto frames = ui.studio.plate_frames();
+  if (frames.empty()) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto bar = [&](double from, double to, ImU32 colour) {
+    list.AddRectFilled({std::max(map.left, map.x_of(from)), at.y},
+                       {std::min(map.right, map.x_of(to)), at.y + scaled(3)}, colour);
+  };
+  bar(std::max(map.first, frames.front()) - 0.5, std::min(map.last, frames.back()) + 0.5, colours::kAccentDim);
+  for (const int frame : missing_frames(frames, map.first, map.last)) bar(frame - 0.5, frame + 0.5, colours::kBad);
+}
+
 void draw_ruler(Ui& ui, const TimelineMap& map, ImVec2 min, float bottom) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float height = scaled(kRulerHeight);
@@ -97,6 +111,7 @@ void draw_ruler(Ui& ui, const TimelineMap& map, ImVec2 min, float bottom) {
     if (ui.studio.frame_cache().has(frame) && ui.studio.is_playing())
       list.AddRectFilled({map.x_of(frame - 0.5), min.y + height - scaled(4)}, {map.x_of(frame + 0.5), min.y + height},
                          colours::kGood);
+  draw_plate_frames(ui, map, {map.left, min.y + scaled(13)});
   for (int frame = (map.first + step - 1) / step * step; frame <= map.last; frame += step) {
     const float x = map.x_of(frame);
     list.AddLine({x, min.y + scaled(14)}, {x, bottom}, IM_COL32(255, 255, 255, 18));

@@ -120,24 +120,12 @@ void draw_exposure(Ui& ui) {
   }
 }
 
-void draw_view_choice(Ui& ui) {
-  static constexpr const char* kNames[] = {"Film-like", "sRGB clipped", "False colour"};
-  int chosen = static_cast<int>(ui.studio.view.transform);
-  ImGui::SetNextItemWidth(transform_width());
-  if (ImGui::Combo("##transform", &chosen, kNames, 3)) {
-    ui.studio.view.transform = static_cast<ViewTransform>(chosen);
-    ui.studio.refresh_display();
-  }
-  ui.registry.record("viewport/transform", kNames[chosen]);
-  tip("How the scene's light becomes the screen's: highlights rolled off as in previews, clipped, or stops as colours");
-}
-
 void draw_header(Ui& ui, const ViewportMap& map) {
   draw_picture_badge(ui, is_narrow());
   align_right({"Auto"}, exposure_width() + transform_width() + scaled(66) + 3 * ImGui::GetStyle().ItemSpacing.x);
   draw_exposure(ui);
   ImGui::SameLine();
-  draw_view_choice(ui);
+  draw_view_choice(ui, transform_width());
   ImGui::SameLine();
   const std::string zoom = fmt::format("{:.0f} %###zoom", 100.0 * static_cast<double>(map.scale));
   if (button(ui, "viewport/fit", zoom.c_str(), "Fit the picture (Z). The wheel zooms, the right button pans.",

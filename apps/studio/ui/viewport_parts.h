@@ -20,4 +20,7 @@ void draw_selected_ghost(Ui& ui, const ViewportMap& map);
 // Whether the picture is a draft; unless it is to be short, its size and how long it took.
 void draw_picture_badge(Ui& ui, bool is_short);
 
+// The menu of view transforms.
+void draw_view_choice(Ui& ui, float width);
+
 }  // namespace contrejour::studio

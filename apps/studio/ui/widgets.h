@@ -38,7 +38,7 @@ class WidgetRegistry {
 
 enum class SideTab { Ghosts, Lights, Looks, Parameters, History };
 enum class BottomTab { Section, Prescription, Coatings, Iris, Timeline, Compare, Measured };
-enum class Dialog { None, OpenLens, OpenPlate, SaveAs, Export, Recover, Quit };
+enum class Dialog { None, OpenLens, OpenPlate, OpenSweep, SaveAs, Export, Recover, Quit };
 
 // A cell or a field that is typed into, until it is accepted.
 struct TextEdit {

@@ -101,6 +101,8 @@ void Window::wait(double seconds) {
     glfwPollEvents();
 }
 
+void Window::rest(double seconds) { glfwWaitEventsTimeout(seconds); }
+
 void Window::begin_frame() {
   ImGuiIO& io = ImGui::GetIO();
   glfwGetWindowSize(window_, &width_, &height_);

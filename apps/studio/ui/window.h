@@ -30,6 +30,8 @@ class Window {
 
   // Waits until something happens, for so long at most; input is then in the queue.
   void wait(double seconds);
+  // Waits for the next event, for so long at most, even if there is input in the queue.
+  void rest(double seconds);
   void begin_frame();
   // before_swap: once the frame is drawn, before it is on the screen.
   void end_frame(const std::function<void()>& before_swap = {});

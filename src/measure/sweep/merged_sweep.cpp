@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/merged_sweep.h"
+#include "contrejour/expert/merged_sweep.h"
 
 #include <algorithm>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "cli/station_file.h"
-#include "contrejour/expert/settings.h"
+#include "base/units.h"
+#include "contrejour/expert/station_file.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFewestMerged = 5;
 
-bool is_station(const fs::path& file) {
+bool is_station_file(const fs::path& file) {
   const std::string name = file.filename().string();
   return name.starts_with("station-") && file.extension() == ".exr";
 }
@@ -25,7 +25,7 @@ Result<std::vector<fs::path>> station_files(const std::string& folder) {
   std::error_code error;
   std::vector<fs::path> files;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (is_station(at->path())) files.push_back(at->path());
+    if (is_station_file(at->path())) files.push_back(at->path());
   if (error)
     return failure(ErrorCode::Io,
                    "the folder of merged stations cannot be read; make one with `contrejour measure merge`",
@@ -55,7 +55,7 @@ Result<MergedSweep> open_merged(const std::string& folder) {
       continue;
     }
     merged.files.push_back(file);
-    merged.angles_rad.push_back(facts->angle_deg * params::kDegree_rad);
+    merged.angles_rad.push_back(rad_from_deg(facts->angle_deg));
     merged.direct.push_back(facts->direct);
     merged.expected = expected_centre(facts->width, facts->height);
   }
@@ -85,4 +85,4 @@ Result<SweepGeometry> geometry_of(const MergedSweep& merged, const std::string& 
   return geometry;
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour

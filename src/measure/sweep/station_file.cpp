@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/station_file.h"
+#include "contrejour/expert/station_file.h"
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "contrejour/expert/parameter_text.h"
 #include "contrejour/image_io.h"
 
-namespace contrejour::cli {
+namespace contrejour {
 namespace {
 
 constexpr const char* kAngleAttribute = "headAngleDegrees";
@@ -22,7 +24,7 @@ constexpr const char* kDirectAttribute = "directImage";  // x, y, red, green, bl
 constexpr const char* kMosaicAttribute = "bayerPattern";
 constexpr std::array<std::string_view, 4> kPatternNames{"rggb", "bggr", "grbg", "gbrg"};
 
-void add_layer(Picture& picture, const std::string& layer, const Image& image) {
+void add_station_layer(Picture& picture, const std::string& layer, const Image& image) {
   for (std::size_t c = 0; c < 3; ++c) {
     PictureChannel channel;
     channel.name = layer + "." + "RGB"[c];
@@ -34,7 +36,7 @@ void add_layer(Picture& picture, const std::string& layer, const Image& image) {
   }
 }
 
-Result<Image> layer_of(const Picture& picture, const std::string& layer, const std::filesystem::path& file) {
+Result<Image> station_layer(const Picture& picture, const std::string& layer, const std::filesystem::path& file) {
   Image image(picture.rgb.width, picture.rgb.height);
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string name = layer + "." + "RGB"[c];
@@ -51,12 +53,26 @@ Result<Image> layer_of(const Picture& picture, const std::string& layer, const s
   return image;
 }
 
+// Finite numbers between commas; none of a text that is anything else.
+std::vector<double> station_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  for (const char* at = text.data(); at <= text.data() + text.size();) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(at, text.data() + text.size(), value);
+    const bool ends_well = end == text.data() + text.size() || *end == ',';
+    if (error != std::errc() || !ends_well || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+    at = end + 1;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 Result<void> write_station(const std::filesystem::path& file, const MergedStation& station) {
   Picture picture = picture_of(station.image.rate);
-  add_layer(picture, "variance", station.image.variance);
-  add_layer(picture, "valid", station.image.valid);
+  add_station_layer(picture, "variance", station.image.variance);
+  add_station_layer(picture, "valid", station.image.valid);
   set_text_attribute(picture, kAngleAttribute, fmt::format("{}", station.angle_deg));
   if (const auto& direct = station.direct) {
     set_text_attribute(picture, kDirectAttribute,
@@ -72,7 +88,7 @@ Result<void> write_station(const std::filesystem::path& file, const MergedStatio
 Result<CapturedImage> read_station(const std::filesystem::path& file) {
   auto picture = read_picture(file);
   if (!picture) return tl::unexpected(picture.error());
-  auto variance = layer_of(*picture, "variance", file), valid = layer_of(*picture, "valid", file);
+  auto variance = station_layer(*picture, "variance", file), valid = station_layer(*picture, "valid", file);
   if (!variance) return tl::unexpected(variance.error());
   if (!valid) return tl::unexpected(valid.error());
   CapturedImage image{std::move(picture->rgb), std::move(*variance), std::move(*valid), {}};
@@ -85,14 +101,14 @@ Result<StationFacts> read_station_facts(const std::filesystem::path& file) {
   const auto picture = read_picture(file);
   if (!picture) return tl::unexpected(picture.error());
   const auto angle = text_attribute(*picture, kAngleAttribute);
-  const auto angle_deg = params::parse_real(angle.value_or(""));
-  if (!angle_deg)
+  const auto angle_deg = station_numbers(angle.value_or(""));
+  if (angle_deg.size() != 1)
     return failure(ErrorCode::Parse, "this is not a merged station; remove it or name another folder",
                    {file.string(), 0, 0});
-  StationFacts facts{*angle_deg, picture->rgb.width, picture->rgb.height, {}};
-  const auto direct = params::parse_reals(text_attribute(*picture, kDirectAttribute).value_or(""), 5);
-  if (direct) facts.direct = DirectFlux{{(*direct)[0], (*direct)[1]}, {(*direct)[2], (*direct)[3], (*direct)[4]}};
+  StationFacts facts{angle_deg[0], picture->rgb.width, picture->rgb.height, {}};
+  const auto direct = station_numbers(text_attribute(*picture, kDirectAttribute).value_or(""));
+  if (direct.size() == 5) facts.direct = DirectFlux{{direct[0], direct[1]}, {direct[2], direct[3], direct[4]}};
   return facts;
 }
 
-}  // namespace contrejour::cli
+}  // namespace contrejour

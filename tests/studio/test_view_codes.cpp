@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views of OpenColorIO: codes by hand, and what cannot be shown.
+#include <array>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "studio/core/view.h"
+#include "studio/core/view_codes.h"
+#include "studio/core/views_job.h"
+
+namespace contrejour::studio {
+namespace {
+
+Image one_pixel(float r, float g, float b) {
+  Image image(1, 1);
+  image.pixels = {r, g, b};
+  return image;
+}
+
+std::array<int, 3> code_of(const std::vector<std::uint32_t>& rgba) {
+  REQUIRE(rgba.size() == 1);
+  return {static_cast<int>(rgba[0] & 255U), static_cast<int>(rgba[0] >> 8U & 255U),
+          static_cast<int>(rgba[0] >> 16U & 255U)};
+}
+
+// IEC 61966-2-1
+int srgb_code(double v) { return static_cast<int>(std::lround(255 * (1.055 * std::pow(v, 1 / 2.4) - 0.055))); }
+
+bool has_module(const Result<std::vector<ColourDisplay>>& displays) {
+  if (displays || displays.error().code != ErrorCode::Unsupported) return true;
+  MESSAGE("skipped: built without OpenColorIO");
+  return false;
+}
+
+TEST_CASE("the built-in displays have a view without tone mapping, and that of ACES") {
+  const auto displays = colour_displays("");
+  if (!has_module(displays)) return;
+  REQUIRE(displays);
+  REQUIRE(displays->size() == 3);
+  CHECK(displays->front().name == "sRGB");
+  CHECK(displays->front().views == std::vector<std::string>{"ACES SDR video", "Un-tone-mapped"});
+  ViewPainter painter;
+  const auto codes = [&](const Image& image, ColourSpace space, double stops, const char* view) {
+    const auto shown = painter.codes(image, space, stops, ViewTransform::Colour, {"sRGB", view});
+    CHECK(shown.error == "");
+    return code_of(shown.rgba);
+  };
+  const auto plain = codes(one_pixel(0.1F, 0.2F, 0.05F), ColourSpace::Rec709, 1, "Un-tone-mapped");
+  CHECK(plain[0] == doctest::Approx(srgb_code(0.2)).epsilon(0.01));
+  CHECK(plain[1] == doctest::Approx(srgb_code(0.4)).epsilon(0.01));
+  CHECK(plain[2] == doctest::Approx(srgb_code(0.1)).epsilon(0.01));
+  // ACES 1 maps a scene's 18 per cent to 4.8 of 48 cd/m2; its video output then raises the luminance to 0.9811 for
+  // dim surroundings (ODT.Academy.RGBmonitor_D65_100nits_dim, DIM_SURROUND_GAMMA).
+  for (const ColourSpace space : {ColourSpace::Rec709, ColourSpace::AcesCg}) {
+    const auto grey = codes(one_pixel(0.18F, 0.18F, 0.18F), space, 0, "ACES SDR video");
+    for (const int code : grey) CHECK(code == doctest::Approx(srgb_code(std::pow(0.1, 0.9811))).epsilon(0.012));
+  }
+  const auto bright = codes(one_pixel(1e6F, 1e6F, 1e6F), ColourSpace::Rec709, 0, "Un-tone-mapped");
+  CHECK(bright == std::array{255, 255, 255});
+}
+
+TEST_CASE("a view that the configuration has not is a preview, with the reason") {
+  if (!has_module(colour_displays(""))) return;
+  ViewPainter painter;
+  const Image grey = one_pixel(0.3F, 0.3F, 0.3F);
+  const auto shown = painter.codes(grey, ColourSpace::Rec709, 0, ViewTransform::Colour, {"sRGB", "Nonesuch"});
+  CHECK(shown.error.find("Nonesuch") != std::string::npos);
+  CHECK(shown.rgba == displayed(grey, 0, ViewTransform::Preview));
+  const auto missing = colour_displays("/no/such/config.ocio");
+  REQUIRE_FALSE(missing);
+  CHECK(missing.error().position.file == "/no/such/config.ocio");
+}
+
+TEST_CASE("pictures in ACEScg are shown in the window's primaries") {
+  ViewPainter painter;
+  const auto shown = painter.codes(one_pixel(0.2F, 0.2F, 0.2F), ColourSpace::AcesCg, 0, ViewTransform::Clipped, {});
+  for (const int code : code_of(shown.rgba)) CHECK(code == doctest::Approx(srgb_code(0.2)).epsilon(0.01));
+  const auto green = painter.codes(one_pixel(0, 0.2F, 0), ColourSpace::AcesCg, 0, ViewTransform::Clipped, {});
+  CHECK(code_of(green.rgba)[1] > srgb_code(0.2));
+  CHECK(code_of(green.rgba)[0] == 0);
+}
+
+TEST_CASE("the view is saved by its names") {
+  View view;
+  view.transform = ViewTransform::Colour;
+  view.colour = {"P3 D65", "ACES SDR cinema"};
+  const View read = view_of_json(json_of_view(view));
+  CHECK(read.transform == ViewTransform::Colour);
+  CHECK(read.colour == view.colour);
+  CHECK(view_of_json(R"({"transform": 3, "colour-view": [1, 2]})").colour == ColourViewName{});
+}
+
+}  // namespace
+}  // namespace contrejour::studio
