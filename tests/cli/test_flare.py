@@ -373,7 +373,7 @@ class HullinBench(ProgramTest):
     def test_dense_rays_and_bundles(self):
         _, rows = self.figure("19", "heliar", "--grid", "32", "--density", "0.1")
         self.assertEqual([row["rendered"] for row in rows], ["dense rays", "ray bundles", "adaptive"])
-        self.assertEqual([row["ghosts_rendered"] for row in rows], [73] * 3)
+        self.assertEqual([row["ghosts_rendered"] for row in rows], [13] * 3)
         self.assertGreater(rows[1]["psnr_db"], 20)
         self.assertGreater(rows[2]["psnr_db"], 20)
 

@@ -361,7 +361,7 @@ TEST_CASE("sixteen wavelengths as in the reference [slow]") {
     const LensState lens = test::lens_at_f(name, f_number);
     test::Settings settings;
     settings.scope = GhostScope::OneSideOfStop;  // half as many ghosts in half the time
-    settings.frame = frame_on_sensor(lens, 160, 90);
+    settings.frame = frame_on_sensor(lens, 112, 63);
     settings.wavelengths = 16;
     const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
     const Image truth = test::flare_of("reference", lens, {&light, 1}, settings).image;
