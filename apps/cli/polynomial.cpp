@@ -162,8 +162,8 @@ void add_polynomial_fit(CLI::App& polynomial, Action& action) {
                    "largest angle of a light to the axis, degrees; 0: that of the sensor's corner and a tenth more")
       ->check(CLI::Range(0.0, 85.0))
       ->capture_default_str();
-  command->add_option("--max-order", options->max_order, "highest order, odd: 5 to 13")
-      ->check(CLI::IsMember({5, 7, 9, 11, 13}))
+  command->add_option("--max-order", options->max_order, "highest order, odd: 5 to 17")
+      ->check(CLI::IsMember({5, 7, 9, 11, 13, 15, 17}))
       ->capture_default_str();
   add_number(*command, "--threads", options->threads, 0, 4096, "number of threads; 0: one per core");
   command->add_flag("--json", options->json, "print a report as JSON");

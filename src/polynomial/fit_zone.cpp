@@ -14,17 +14,18 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr int kFields = 19, kRaysAtField = 72;
+constexpr int kFields = 19, kRaysAtField = 96;
 constexpr int kRimRaysAtField = 400;  // at one wavelength, that show which rims block
 constexpr int kMinDegree = 2;  // order 5
 // Chebyshev-Lobatto wavelengths: every third one suffices for positions, which vary less than transmittances.
 constexpr int kWavelengths = 13, kWavelengthStep = 3;
-constexpr double kFullWeight = 1.06;  // relative height up to which rays count fully
-// Relative heights beyond which rays are left out, and how steeply they count less before. Positions on the sensor and
-// transmittances matter only for light that gets through; the edges that block light must also block all light beyond.
-constexpr double kFarthestLight = 1.15, kFarthestEdge = 2.0;
-constexpr double kFallLight = 32.0, kFallEdge = 20.0;
-constexpr double kNearSensor = 1.6;   // half diagonals: rays that land farther out count less
+// Relative heights beyond which rays are left out, and how steeply rays that are blocked count less before. Next to the
+// light, a ghost's rays often are close to total reflection or to missing a surface, where its map has a branch point:
+// a polynomial that follows these rays spends its degrees there. Positions on the sensor and transmittances matter only
+// for light that gets through; the edges that block light must also block all light beyond.
+constexpr double kFarthestLight = 1.2, kFarthestEdge = 2.0;
+constexpr double kFallLight = 48.0, kFallEdge = 48.0;
+constexpr double kNearSensor = 1.6;  // half diagonals: rays that land farther out count less
 constexpr double kSamplesPerUnknown = 2.0;
 // Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
 // of them. Without a ridge their coefficients grow until float cannot hold the differences.
@@ -110,7 +111,7 @@ FitRays fit_rays(const ZoneProblem& problem, const PolynomialZone& zone) {
     const RayTable& middle = out.middle();
     const double landing_mm = std::hypot(middle.sensor_x_mm[ray], middle.sensor_y_mm[ray]);
     const double by_landing = std::min(1.0, near_mm / std::max(landing_mm, near_mm));
-    const auto falling = [&](double power) { return std::min(1.0, std::pow(kFullWeight / clearance, power)); };
+    const auto falling = [&](double power) { return std::pow(std::max(clearance, 1.0), -power); };
     if (clearance < kFarthestLight) out.for_light.add(ray, by_landing * falling(kFallLight));
     if (clearance < kFarthestEdge) out.for_edges.add(ray, falling(kFallEdge));
   }
@@ -259,18 +260,31 @@ ChebyshevVector fitted_vector(Systems& systems, int degree, const ValueOf& x, co
           assembled(degree, solutions, static_cast<std::size_t>(term_count(degree)), negligible)};
 }
 
+// The errors that a polynomial should have, up to which higher degrees are tried, and those up to which it is accepted.
+struct Tolerated {
+  double target = 0.0, accepted = 0.0;
+};
+
+// True if higher degrees cannot be expected to bring an error down to the accepted one, even if each of them lowers it
+// by twice as much as the last one did.
+bool is_hopeless(double p95, double before, int degrees_left, double accepted) {
+  constexpr double kBetterThanBefore = 0.5;
+  return p95 * std::pow(kBetterThanBefore * p95 / before, degrees_left) > accepted;
+}
+
 // The polynomial of the lowest degree whose errors reach the target, or else the best one.
 template <class Polynomial, class Fit, class Errors>
-double raise_degree(const Systems& systems, int max_degree, double target, Polynomial& best, const Fit& fit,
-                    const Errors& errors) {
+double raise_degree(const Systems& systems, int max_degree, const Tolerated& tolerated, Polynomial& best,
+                    const Fit& fit, const Errors& errors) {
   double best_p95 = std::numeric_limits<double>::infinity();
   for (int degree = kMinDegree; degree <= max_degree && systems.has_enough_rays(degree); ++degree) {
     Polynomial tried = fit(degree);
     const double p95 = quantile(errors(tried), 0.95);
     if (!(p95 < best_p95)) continue;  // not a number, too
+    const bool stops = p95 <= tolerated.target || is_hopeless(p95, best_p95, max_degree - degree, tolerated.accepted);
     best_p95 = p95;
     best = std::move(tried);
-    if (p95 <= target) break;
+    if (stops) break;
   }
   return best_p95;
 }
@@ -301,7 +315,7 @@ bool fit_outputs(const ZoneProblem& problem, const FitRays& rays, const ZoneChec
   const double pixel_mm = problem.lens.pixel_mm, target_mm = options.target_px * pixel_mm;
   PolynomialAccuracy& accuracy = zone.accuracy;
   raise_degree(
-      light, max_degree, target_mm, zone.sensor_mm,
+      light, max_degree, {target_mm, options.position_px * pixel_mm}, zone.sensor_mm,
       [&](int degree) {
         return fitted_vector(
             light, degree, [](const RayTable& t, std::size_t k) { return t.sensor_x_mm[k]; },
@@ -320,7 +334,7 @@ bool fit_outputs(const ZoneProblem& problem, const FitRays& rays, const ZoneChec
       return [c, of](const RayTable& t, std::size_t k) { return t.stop[c][of][k]; };
     };
     const double p95 = raise_degree(
-        edges, max_degree, edge_target, zone.stop.emplace_back(),
+        edges, max_degree, {edge_target, options.edge}, zone.stop.emplace_back(),
         [&](int degree) { return fitted_vector(edges, degree, axis(0), axis(1), kNegligible * edge_target); },
         [&](const ChebyshevVector& stop) { return check.stop_errors(stop, c); });
     accuracy.edge_p95 = std::max(accuracy.edge_p95, p95);
@@ -330,7 +344,7 @@ bool fit_outputs(const ZoneProblem& problem, const FitRays& rays, const ZoneChec
   for (const int step : blocking_steps(for_rims)) {
     PolynomialRim& rim = zone.rims.emplace_back(PolynomialRim{step, {}});
     const double p95 = raise_degree(
-        edges, max_degree, edge_target, rim.squared,
+        edges, max_degree, {edge_target, options.edge}, rim.squared,
         [&](int degree) {
           const auto value = [step](const RayTable& t, std::size_t k) {
             return t.rim_squared[static_cast<std::size_t>(step)][k];
@@ -344,7 +358,7 @@ bool fit_outputs(const ZoneProblem& problem, const FitRays& rays, const ZoneChec
   const double largest = *std::ranges::max_element(rays.middle().transmission);
   const double transmittance_target = kFractionOfTransmittance * options.transmittance;
   accuracy.transmittance_p95 = raise_degree(
-      light, max_degree, transmittance_target, zone.transmittance,
+      light, max_degree, {transmittance_target, options.transmittance}, zone.transmittance,
       [&](int degree) {
         const auto value = [](const RayTable& t, std::size_t k) { return t.transmission[k]; };
         return fitted_sum(light, degree, 1, value, kNegligible * transmittance_target * largest);

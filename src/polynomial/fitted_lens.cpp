@@ -16,8 +16,8 @@ using pupils::FittedGhost;
 using pupils::RayRequest;
 using pupils::RaySource;
 
-// Over the widest stop: rays up to 1.06 of it count fully in a fit.
-constexpr double kWidestStop = 1.05;
+// Over the widest stop: rays up to 1.06 of it are in a fit, but count less the farther out they are.
+constexpr double kWidestStop = 1.03;
 constexpr float kAboveLargest = 1.5F;  // of the transmittance, for points between those of a grid
 constexpr float kReach = 1.2F;  // relative height: beyond, polynomials are free to grow
 

@@ -92,10 +92,12 @@ HWY_INLINE Points value_of(const PowerSum& sum, const Points& v, const Points& w
     case 3: return sum_over_v<3, 0>(c, v, w);
     case 4: return sum_over_v<4, 0>(c, v, w);
     case 5: return sum_over_v<5, 0>(c, v, w);
-    default: return sum_over_v<6, 0>(c, v, w);
+    case 6: return sum_over_v<6, 0>(c, v, w);
+    case 7: return sum_over_v<7, 0>(c, v, w);
+    default: return sum_over_v<8, 0>(c, v, w);
   }
 }
-static_assert(kMaxDegree == 6);
+static_assert(kMaxDegree == 8);
 
 // Writes `count` of the points, which are all of them but for the last vector.
 template <class Points>

@@ -9,8 +9,12 @@ namespace contrejour::inline internal::polynomial {
 namespace {
 
 constexpr int kTestedFields = 13, kTestedAtField = 24;
+// More rays, at the middle of these wavelengths, that must not be let through if they are blocked: edges count little
+// where a fit may turn back.
+constexpr int kBlockedAtField = 96;
 constexpr std::size_t kFirstIndex = 100'003;  // in the sequence of points, beyond those of fits
 constexpr std::array kTestedWavelengths{-0.86, -0.11, 0.57};  // coordinates, none of which is a node of the fit
+constexpr double kBlockedWavelength = kTestedWavelengths[1];
 constexpr double kLandingNear = 1.1;  // of its size
 constexpr std::size_t kFewRays = 16;
 // A ray that passes an edge outside by this fraction of its radius must not be let through.
@@ -36,6 +40,7 @@ ZoneCheck::ZoneCheck(const LensPolynomials& lens, const GhostRays& rays, const P
   for (int k = 0; k < kTestedFields; ++k)
     bounds.push_back(bounds_between(zone, std::sqrt(low + (high - low) * (k + 0.5) / kTestedFields)));
   starts_ = starts_within(bounds, kTestedAtField, kFirstIndex);
+  blocked_starts_ = starts_within(bounds, kBlockedAtField, kFirstIndex + starts_.size());
   for (const RayStart& start : starts_) points_.push_back(zone_point(zone, start.field, start.entrance_mm));
   for (const double coordinate : kTestedWavelengths) {
     wavelength_.push_back(coordinate);
@@ -54,6 +59,7 @@ ZoneCheck::ZoneCheck(const LensPolynomials& lens, const GhostRays& rays, const P
     largest_transmittance_.push_back(largest);
   }
   if (landing_.size() < kFewRays) landing_ = open_;
+  blocked_table_ = rays.trace(blocked_starts_, wavelength_at(lens, kBlockedWavelength));
 }
 
 double ZoneCheck::value(const ChebyshevSum& sum, const Sample& sample) const {
@@ -103,17 +109,20 @@ std::vector<double> ZoneCheck::transmittance_errors(const ChebyshevSum& transmit
 }
 
 bool ZoneCheck::admits_blocked_light(const LensPolynomials& lens, const PolynomialZone& zone) const {
-  for (std::size_t t = 0; t < tables_.size(); ++t) {
-    for (std::size_t k = 0; k < starts_.size(); ++k) {
-      if (tables_[t].clearance(k) <= 1.0 + kBlockedBy) continue;
-      const PolynomialRay ray =
-          evaluate(lens, zone, starts_[k].field, starts_[k].entrance_mm, wavelength_at(lens, wavelength_[t]));
-      double clearance = ray.relative_height;
-      for (std::size_t c = 0; c < zone.stop.size(); ++c) clearance = std::max(clearance, length(ray.stop[c]));
-      if (!(clearance > 1.0)) return true;
-    }
-  }
-  return false;
+  const auto admits = [&](const RayStart& start, double wavelength) {
+    const PolynomialRay ray = evaluate(lens, zone, start.field, start.entrance_mm, wavelength_at(lens, wavelength));
+    double clearance = ray.relative_height;
+    for (std::size_t c = 0; c < zone.stop.size(); ++c) clearance = std::max(clearance, length(ray.stop[c]));
+    return !(clearance > 1.0);
+  };
+  const auto admits_any = [&](std::span<const RayStart> starts, const RayTable& table, double wavelength) {
+    for (std::size_t k = 0; k < starts.size(); ++k)
+      if (table.clearance(k) > 1.0 + kBlockedBy && admits(starts[k], wavelength)) return true;
+    return false;
+  };
+  for (std::size_t t = 0; t < tables_.size(); ++t)
+    if (admits_any(starts_, tables_[t], wavelength_[t])) return true;
+  return admits_any(blocked_starts_, blocked_table_, kBlockedWavelength);
 }
 
 }  // namespace contrejour::inline internal::polynomial

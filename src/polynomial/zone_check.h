@@ -36,6 +36,8 @@ class ZoneCheck {
 
   std::vector<RayStart> starts_;
   std::vector<ZonePoint> points_;
+  std::vector<RayStart> blocked_starts_;
+  RayTable blocked_table_;
   std::vector<RayTable> tables_;  // one a wavelength
   std::vector<double> wavelength_;  // their coordinates
   std::vector<double> largest_transmittance_;
