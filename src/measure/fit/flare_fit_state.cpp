@@ -32,8 +32,9 @@ Eigen::VectorXd with_last(const Eigen::VectorXd& from, double last) {
   return all;
 }
 
-// Coefficients beyond the first: by how much a ghost may leave the disc that moves evenly. Without bounds, one that
-// stands for light of another kind takes any shape at angles where little holds it.
+// By how much a ghost may leave the disc that moves evenly (coefficients beyond the first), and its centre the one that
+// a fit starts from. Without bounds, one that stands for light of another kind takes any shape at angles where little
+// holds it, and one that has no light goes anywhere.
 constexpr double kBend = 0.2, kBendOfRadius = 0.5;  // of the way that the centre moves, and of the radius
 constexpr double kGrowth = 0.5, kSkew = 0.4;  // of the radius
 constexpr double kRoundnessChange = 0.15, kFadeChange = 0.3;  // the latter of the radius
@@ -61,6 +62,10 @@ void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquares
       squares.upper[at] = std::min(squares.upper[at], most[curve]);
     }
   }
+  const Eigen::Index centre = problem.layout.curve_terms(ghost, 0, 0.0).first;
+  const double start = g.centre.coefficients.front() * problem.flare.s_max;
+  squares.lower[centre] = std::max(squares.lower[centre], start - most[0]);
+  squares.upper[centre] = std::min(squares.upper[centre], start + most[0]);
 }
 
 // A ghost that is fitted in a window stays near its start, because the window shows parts of others, too.
