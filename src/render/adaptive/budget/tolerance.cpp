@@ -11,6 +11,9 @@ namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kFitFraction = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
+// The same, over kFitFraction, for rays that are evaluated from a fit: they cost little, and none of them fails, which
+// would show where a map is steep.
+constexpr double kFractionOfFitted = 0.4;
 constexpr double kNoLimit = 1e9;
 // The largest displacement of a ghost's light, over the ghost's size: kMaxShift in general, kPreviewShift in preview
 // quality, where twice that has produced false caustics between rays far apart.
@@ -75,7 +78,8 @@ Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared
   Tolerance t;
   t.level = std::min(spread.level, kPeaks * budget.peak);
   t.colour_px = t.level > kColourLevel * budget.peak ? std::max(kColourShift_px, kColourShift * side) : kNoLimit;
-  const double error = kFitFraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
+  const double fraction = kFitFraction * (std::isfinite(ray_set.reach) ? kFractionOfFitted : 1.0);
+  const double error = fraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px =
       std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMaxShift * side + kLittle_px);
   t.stop = 2.0 * t.position_px / side;
