@@ -111,7 +111,8 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
-// The rays of a fitted item in the preview frame count as those of a typical traced one: more of them cost little.
+// A fitted item counts as a typical traced one in the preview frame, whose items take 111 rays on average (30 lights,
+// nikon-80-200). It takes other numbers of rays because none of them fails, and not because it is simpler.
 constexpr double kRaysOfFitted = 110.0;
 
 // Preview: the rays of one wavelength serve for all.
@@ -215,7 +216,7 @@ PreviewFrame draw_preview(const Scene& scene, const std::vector<Item>& items, co
     TessellatedItem tessellated = tessellate(scene, items[k], Quality::Preview, small, unlimited, scratch_pool);
     done[k] = tessellated.work;
     preview.estimates[k] = {level_of(tessellated.polygons, scale),
-                            std::min(static_cast<double>(tessellated.rays), items[k].is_fitted ? kRaysOfFitted : 1e9)};
+                            items[k].is_fitted ? kRaysOfFitted : static_cast<double>(tessellated.rays)};
     batch->set(k, std::move(tessellated.polygons));
   });
   for (const Work& w : done) work.add(w);
