@@ -17,7 +17,8 @@ constexpr double kFractionOfFitted = 0.4;
 constexpr double kNoLimit = 1e9;
 // The largest displacement of a ghost's light, over the ghost's size: kMaxShift in general, kPreviewShift in preview
 // quality, where twice that has produced false caustics between rays far apart.
-constexpr double kPreviewWeight = 0.1, kPreviewStop = 0.02;  // in preview quality, of rays that are evaluated
+constexpr double kPreviewWeight = 0.1, kPreviewStop = 0.004;  // in preview quality, of rays that are evaluated
+constexpr double kPreviewShiftOfFitted = 0.2;  // of that of traced rays
 constexpr double kMaxShift = 0.05, kPreviewShift = 0.02, kLittle_px = 0.5;
 // In ghosts brighter than kColourLevel of the peak, wavelengths farther apart than this, over the ghost's size, show as
 // colours.
@@ -69,7 +70,11 @@ Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared
     Tolerance t = kAny;
     if (traced) t.position_px = kPreviewShift * std::sqrt(traced->area_px) + kLittle_px;
     // Values of a fit far outside the light spoil polynomials through few of them.
-    if (std::isfinite(ray_set.reach)) t.weight = kPreviewWeight, t.stop = kPreviewStop;
+    if (std::isfinite(ray_set.reach)) {
+      t.position_px *= kPreviewShiftOfFitted;
+      t.weight = kPreviewWeight;
+      t.stop = kPreviewStop;
+    }
     return t;
   }
   LevelEstimate spread = brighter(traced, budget.about);
