@@ -100,6 +100,13 @@ TEST_CASE("fitted zones agree with the scalar tracer within their stated toleran
   CHECK(quantile_95(errors.transmittance) <= 2e-3);
 }
 
+// Ghosts 1-5 and 7-9, which have more than a third of the lens's flux, have branch points next to their light.
+TEST_CASE("ghosts of the Heliar whose map is singular next to the light are fitted [slow]") {
+  const auto fit = fit_polynomials(lens_of("heliar"), {.max_halvings = 2, .ghosts = {{1, 5}, {7, 9}}});
+  REQUIRE(fit.has_value());
+  CHECK(traced_flux_fraction(*fit) < 0.5);
+}
+
 TEST_CASE("zones of a ghost adjoin from the axis to the largest field") {
   for (const GhostPolynomials& ghost : tessar_fit().ghosts) {
     REQUIRE(!ghost.zones.empty());

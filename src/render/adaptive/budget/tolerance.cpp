@@ -11,10 +11,14 @@ namespace contrejour::inline internal::adaptive {
 namespace {
 
 constexpr double kFitFraction = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
+// The same, over kFitFraction, for rays that are evaluated from a fit: they cost little, and none of them fails, which
+// would show where a map is steep.
+constexpr double kFractionOfFitted = 0.4;
 constexpr double kNoLimit = 1e9;
 // The largest displacement of a ghost's light, over the ghost's size: kMaxShift in general, kPreviewShift in preview
 // quality, where twice that has produced false caustics between rays far apart.
-constexpr double kPreviewWeight = 0.1, kPreviewStop = 0.02;  // in preview quality, of rays that are evaluated
+constexpr double kPreviewWeight = 0.1, kPreviewStop = 0.004;  // in preview quality, of rays that are evaluated
+constexpr double kPreviewShiftOfFitted = 0.2;  // of that of traced rays
 constexpr double kMaxShift = 0.05, kPreviewShift = 0.02, kLittle_px = 0.5;
 // In ghosts brighter than kColourLevel of the peak, wavelengths farther apart than this, over the ghost's size, show as
 // colours.
@@ -66,7 +70,11 @@ Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared
     Tolerance t = kAny;
     if (traced) t.position_px = kPreviewShift * std::sqrt(traced->area_px) + kLittle_px;
     // Values of a fit far outside the light spoil polynomials through few of them.
-    if (std::isfinite(ray_set.reach)) t.weight = kPreviewWeight, t.stop = kPreviewStop;
+    if (std::isfinite(ray_set.reach)) {
+      t.position_px *= kPreviewShiftOfFitted;
+      t.weight = kPreviewWeight;
+      t.stop = kPreviewStop;
+    }
     return t;
   }
   LevelEstimate spread = brighter(traced, budget.about);
@@ -75,7 +83,8 @@ Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared
   Tolerance t;
   t.level = std::min(spread.level, kPeaks * budget.peak);
   t.colour_px = t.level > kColourLevel * budget.peak ? std::max(kColourShift_px, kColourShift * side) : kNoLimit;
-  const double error = kFitFraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
+  const double fraction = kFitFraction * (std::isfinite(ray_set.reach) ? kFractionOfFitted : 1.0);
+  const double error = fraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
   t.position_px =
       std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMaxShift * side + kLittle_px);
   t.stop = 2.0 * t.position_px / side;
