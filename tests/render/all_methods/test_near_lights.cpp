@@ -83,7 +83,9 @@ TEST_CASE("a light at a kilometre is a distant one; at infinity to the last bit"
   for_each_method([&](const Bounds& bounds) {
     const Image truth = image_of(bounds, lens, distant, settings);
     // With one sample for each pixel, edges are steps: one pixel of a thousand may change there.
-    CHECK(psnr_db(truth, image_of(bounds, lens, far, settings)) > (bounds.traits.integrates_pixels ? 60.0 : 40.0));
+    // `polynomial` evaluates the distant light and traces the other: its transmittances may differ by 0.2 per cent.
+    const double least_db = bounds.method == "polynomial" ? 54.0 : bounds.traits.integrates_pixels ? 60.0 : 40.0;
+    CHECK(psnr_db(truth, image_of(bounds, lens, far, settings)) > least_db);
     CHECK(image_of(bounds, lens, farther, settings).pixels == truth.pixels);
   });
 }
