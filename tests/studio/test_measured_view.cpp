@@ -80,7 +80,7 @@ TEST_CASE("the kymograph has the ghost where its speed puts it at each angle") {
 constexpr int kSweepWidth = 240, kSweepHeight = 160;
 constexpr double kSweepRoll_rad = 0.05, kLightRate = 5000;
 
-// Where the light of an angle is, in pixels with y down.
+// The place of the light of an angle, in pixels with y down.
 Vec2 light_at(double s, double focal_px) {
   return {0.5 * kSweepWidth + focal_px * s * std::cos(kSweepRoll_rad),
           0.5 * kSweepHeight - focal_px * s * std::sin(kSweepRoll_rad)};

@@ -18,8 +18,8 @@
 
 namespace contrejour::studio {
 
-// Of a job's thread. What takes milliseconds and the window waits for has the interface's; what renders has a lower
-// one.
+// The priority of a job's thread. A job that takes milliseconds, and that the window waits for, has the interface's;
+// one that renders has a lower one.
 enum class JobPriority { Background, Interface };
 
 template <class Request, class Answer>

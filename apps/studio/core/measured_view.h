@@ -48,7 +48,7 @@ struct MeasuredOrder {
 struct MeasuredPhotograph {
   std::size_t station = 0, count = 0;  // from 0; of the sweep
   std::vector<std::uint32_t> captured, fitted, residual;
-  // Of all stations that have been read, as the kymograph; black where there is none.
+  // The kymograph of all stations that have been read; black where there is none.
   std::shared_ptr<const std::vector<std::uint32_t>> kymograph;
   std::size_t read = 0;  // stations
 };

@@ -22,7 +22,7 @@ namespace contrejour::studio {
 // The frames whose files exist, in rising order; empty for a plate that is no sequence.
 [[nodiscard]] Result<std::vector<int>> frames_of_plate(const SessionPlate& plate);
 
-// Those from first to last that are not among `present`, which rises.
+// The frames from first to last that are not among `present`, which rises.
 [[nodiscard]] std::vector<int> missing_frames(const std::vector<int>& present, int first, int last);
 
 // The sequence that a file with a number before its extension belongs to, by its pattern. None where no other file has

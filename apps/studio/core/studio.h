@@ -113,7 +113,7 @@ class Studio {
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
   [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate, view.frame); }
-  // Of a plate that is a sequence: the frames whose files exist.
+  // The frames of a plate that is a sequence whose files exist.
   [[nodiscard]] std::vector<int> plate_frames() const { return plates_.frames(document().plate); }
   [[nodiscard]] const std::vector<Snapshot>& snapshots() const { return snapshots_; }
   [[nodiscard]] const CompareView& compare_view() const { return compare_; }

@@ -153,9 +153,9 @@ void draw_photographs(Ui& ui, TextureSet& textures, ImVec2 room) {
 void draw_measured_header(Ui& ui) {
   const MeasuredAnswer& measured = ui.studio.measured();
   ImGui::AlignTextToFramePadding();
-  const std::string title = fmt::format("{}: {} ghosts, light at {:+.2f}\u00b0",
-                                        measured.flare->name.empty() ? measured.file : measured.flare->name,
-                                        measured.flare->ghosts.size(), measured.angle_deg);
+  const std::string title = fmt::format(
+      "{}: {} ghost{}, light at {:+.2f}\u00b0", measured.flare->name.empty() ? measured.file : measured.flare->name,
+      measured.flare->ghosts.size(), measured.flare->ghosts.size() == 1 ? "" : "s", measured.angle_deg);
   fitting_text(title, ImGui::GetContentRegionAvail().x - scaled(264), colours::kText);
   ui.registry.record("measured/title", title);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(250));
