@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "render/all_methods/kept_truth.h"
 #include "render/all_methods/methods.h"
 #include "support/pictures.h"
 
@@ -159,7 +160,7 @@ TEST_CASE("curved and uneven blades, as in the reference [slow]") {
     test::Settings settings = small_frame(lens, 96, 64);
     settings.reference.density = 1.4;  // at 1 it has errors at an iris's corners
     const Light light = light_at(lens, settings.frame, {0.70, 0.33});
-    const Image truth = truth_of(lens, light, settings);
+    const Image truth = kept_truth_of("blades-" + std::to_string(iris.blades), lens, light, settings);
     CHECK(sum(truth) > 0.0);
     for_each_method([&](const Bounds& bounds) {
       if (!bounds.traits.is_exact) check_against(truth, image_of(bounds, lens, light, settings), bounds);
@@ -173,7 +174,7 @@ TEST_CASE("a picture as the iris, as in the reference [slow]") {
     test::Settings settings = small_frame(lens, 96, 64);
     settings.reference.density = 1.4;
     const Light light = light_at(lens, settings.frame, {0.70, 0.33});
-    const Image truth = truth_of(lens, light, settings);
+    const Image truth = kept_truth_of(f_number < 8.0 ? "flower-wide" : "flower-closed", lens, light, settings);
     CHECK(sum(truth) > 0.0);
     for_each_method([&](Bounds bounds) {
       if (bounds.traits.is_exact) return;
