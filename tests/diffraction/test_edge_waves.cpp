@@ -99,7 +99,7 @@ TEST_CASE("edges and corners send what the contour integral says [slow]") {
   }
 }
 
-TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line there") {
+TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line there [slow]") {
   for (const double curvature : {0.9, 0.97, 0.9999}) {
     const IrisOpening opening(Iris{9, 0.0, curvature});
     const EdgeWaves edges(opening);

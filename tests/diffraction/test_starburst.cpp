@@ -347,7 +347,7 @@ class ExactStarburst {
   double area_ = 0.0;
 };
 
-TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spikes, opposite ones, and between them") {
+TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spikes, opposite ones, and between them [slow]") {
   struct Case {
     Iris iris;
     double f_number, pitch_mm;

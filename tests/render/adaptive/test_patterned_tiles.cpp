@@ -16,6 +16,7 @@
 #include "render/adaptive/scene.h"
 #include "render/polygons/packed_irradiance.h"
 #include "render/stop_patterns/band_stop_pattern.h"
+#include "support/sanitized.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -134,7 +135,7 @@ template <class PatternOf>
 double worst_difference(unsigned seed, const PatternOf& pattern_of, const At& at, const PatternAtlas* atlas = nullptr) {
   Fuzz fuzz(seed);
   double worst = 0.0;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < (test::kSanitized ? 12 : 60); ++k) {
     PolygonList list;
     const Vec2 middle{fuzz(-20.0, kPatternedWidth + 20.0), fuzz(-10.0, kPatternedHeight + 10.0)};
     const double size = std::pow(10.0, fuzz(0.0, 2.2));
@@ -255,7 +256,7 @@ TEST_CASE("light behind fringes: nothing of it stays beyond the frame, and parts
   // A frame whose width is not a multiple of the blocks, with a stop so large that the pattern is uniform over long
   // stretches of rows.
   for (const int width : {61, 200, TileGrid::kWidth + 29}) {
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < (test::kSanitized ? 4 : 20); ++k) {
       PolygonList list;
       const double size = 40.0 * kRadius_px;
       const Vec2 middle{fuzz(0.0, width), fuzz(0.0, kPatternedHeight)};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <string>
 
 #include "contrejour/expert/metrics.h"
 #include "render/adaptive/budget/band_error.h"
@@ -15,6 +16,7 @@
 #include "render/ray_maps/band_set.h"
 #include "render/ray_maps/first_rays.h"
 #include "support/flares.h"
+#include "support/kept_picture.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -364,7 +366,9 @@ TEST_CASE("sixteen wavelengths as in the reference [slow]") {
     settings.frame = frame_on_sensor(lens, 112, 63);
     settings.wavelengths = 16;
     const Light light = test::light_at(lens, settings.frame, {0.70, 0.33});
-    const Image truth = test::flare_of("reference", lens, {&light, 1}, settings).image;
+    const Image truth = test::kept_picture(std::string(name) + "-16-wavelengths", [&] {
+      return test::flare_of("reference", lens, {&light, 1}, settings).image;
+    });
     const auto difference = compare(truth, test::flare_of("adaptive", lens, {&light, 1}, settings).image);
     REQUIRE(difference.has_value());
     CHECK(difference->psnr_db.value_or(1000.0) >= 50.0);

@@ -13,6 +13,7 @@
 #include "contrejour/expert/metrics.h"
 #include "contrejour/render.h"
 #include "support/flares.h"
+#include "support/kept_picture.h"
 #include "support/scenes.h"
 
 namespace contrejour::test {
@@ -68,6 +69,13 @@ inline Image image_of(const Bounds& method, const LensState& lens, const Light& 
 
 inline Image truth_of(const LensState& lens, const Light& light, const Settings& settings) {
   return image_of(bounds_of("reference"), lens, light, settings);
+}
+
+// The same picture, kept as golden/NAME.exr. Two of them are rendered in every run ("the reference renders what is kept
+// of it"), so that a change of the reference does not go unseen.
+inline Image kept_truth_of(const std::string& name, const LensState& lens, const Light& light,
+                           const Settings& settings) {
+  return kept_picture(name, [&] { return truth_of(lens, light, settings); });
 }
 
 // A frame on the lens's sensor at 550 nm, with a coarse, quick grid.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lenses with tilted and decentred elements: no renderer may assume that they have axial symmetry.
-#include "render/all_methods/kept_truth.h"
 #include "render/all_methods/methods.h"
 
 using namespace contrejour;

@@ -163,7 +163,7 @@ TEST_CASE("ringing and dirt together, and dirt before a near light, as the refer
 }
 
 // Independent of the renderers: the wave behind slits, by quadrature (Born & Wolf 8.7.3). F = a^2 / (550 nm * 12 mm).
-TEST_CASE("with ringing, scratches have the fringes of slits") {
+TEST_CASE("with ringing, scratches have the fringes of slits [slow]") {
   LensState lens = plate();
   lens.dirt = {.scratches_per_cm2 = 1.5,
                .scratch_length_mm = Dirt::kLongest_mm,

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <vector>
 
-#include "render/all_methods/kept_truth.h"
 #include "render/all_methods/methods.h"
 #include "support/pictures.h"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/all_methods/kept_truth.h"
 #include "render/all_methods/methods.h"
 
 using namespace contrejour;

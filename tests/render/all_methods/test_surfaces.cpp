@@ -3,7 +3,6 @@
 // rays at such surfaces are tested in tests/optics/trace/test_surfaces.cpp.
 #include <algorithm>
 
-#include "render/all_methods/kept_truth.h"
 #include "render/all_methods/methods.h"
 
 using namespace contrejour;

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small pictures kept in the repository: a change that moves a ghost, a colour or a level shows up here first. They are
-// compared with a tolerance. To regenerate them, run this program with CONTREJOUR_WRITE_GOLDEN=1, and say why in the
-// commit.
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-
+// compared with a tolerance.
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/metrics.h"
-#include "contrejour/image_io.h"
+#include "support/kept_picture.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -51,15 +46,9 @@ Image rendered(const Golden& golden) {
 TEST_CASE("golden pictures") {
   for (const Golden& golden : kGolden) {
     CAPTURE(golden.lens);
-    const std::filesystem::path file = std::filesystem::path(CONTREJOUR_GOLDEN) / (std::string(golden.lens) + ".exr");
     const Image image = rendered(golden);
-    if (std::getenv("CONTREJOUR_WRITE_GOLDEN") != nullptr) {
-      REQUIRE(write_picture(file, picture_of(image, SampleType::Half)).has_value());
-      continue;
-    }
-    const auto kept = read_picture(file);
-    REQUIRE(kept.has_value());
-    const auto difference = compare(kept->rgb, image);
+    const Image kept = test::kept_picture(golden.lens, [&] { return image; }, SampleType::Half);
+    const auto difference = compare(kept, image);
     REQUIRE(difference.has_value());
     CHECK(difference->psnr_db.value_or(1000.0) > kAlike_db);
     for (const double ratio : difference->flux_ratio) CHECK(ratio == doctest::Approx(1.0).epsilon(2e-3));
