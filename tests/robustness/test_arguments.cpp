@@ -88,7 +88,11 @@ TEST_CASE("render settings of any kind are errors or render") {
     test::Settings settings = sound;
     change(settings);
     for (const std::string_view method : render_methods()) {
-      const auto flare = render(method, lens, {&light, 1}, settings);
+      test::Settings asked = settings;
+      // A fit of all ghosts takes seconds, and treats each of them alike.
+      if (method == "polynomial" && std::holds_alternative<SelectAll>(asked.selection))
+        asked.selection = SelectList{{{1, 2}, {2, 5}}};
+      const auto flare = render(method, lens, {&light, 1}, asked);
       if (!flare) continue;
       CHECK(is_finite(flare->image));
     }

@@ -43,7 +43,7 @@ Image rendered(const Golden& golden) {
 
 }  // namespace
 
-TEST_CASE("golden pictures") {
+TEST_CASE("golden pictures [slow]") {
   for (const Golden& golden : kGolden) {
     CAPTURE(golden.lens);
     const Image image = rendered(golden);

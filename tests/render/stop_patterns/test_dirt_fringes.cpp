@@ -48,7 +48,7 @@ std::vector<Vec2> points_about(const DirtStroke& stroke, double outer_radius_mm)
 
 }  // namespace
 
-TEST_CASE("specks and scratches as the integral over them has them") {
+TEST_CASE("specks and scratches as the integral over them has them [slow]") {
   struct Case {
     DirtStroke stroke;
     double lambda_z_mm2, tolerance;
