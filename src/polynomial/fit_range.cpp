@@ -23,6 +23,7 @@ namespace {
 constexpr int kZoomNodes = 5, kFocusNodes = 4;
 constexpr int kPositionNodes = 17;
 constexpr int kMaxDivisions = 4;
+constexpr int kMaxFieldHalvings = 1;  // of parts of the range, of which there are many
 constexpr double kPositionTolerance_mm = 1e-4;
 constexpr double kRounding = 1e-9;  // of coordinates, relative to a part of the range
 
@@ -109,7 +110,7 @@ class GhostRangeFit {
     Problem problem;
     if (!has_states(problem, low, high)) return {traced(low, high)};
     PolynomialOptions options = options_.fit;
-    if (divisions > 0) options.max_halvings = 0;
+    options.max_halvings = divisions > 0 ? 0 : std::min(options.max_halvings, kMaxFieldHalvings);
     const LensState& lens = states_.at(high)->lens;
     const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
     PolynomialSpan whole{low, high, fit_field({common_, options, problem.nodes, problem.tests, sensor_half_mm}, 1.0)};
