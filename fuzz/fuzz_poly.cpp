@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "contrejour/expert/polynomial.h"
+#include "contrejour/expert/polynomial_range.h"
 
 namespace {
 
@@ -20,8 +20,17 @@ void demand(bool holds) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = read_polynomials({reinterpret_cast<const char*>(data), size}, "fuzz.poly");
-  if (!read) return 0;
+  const auto any = read_any_polynomials({reinterpret_cast<const char*>(data), size}, "fuzz.poly");
+  if (!any) return 0;
+  if (const auto* const range = std::get_if<LensPolynomialRange>(&*any)) {
+    const std::string bytes = write_polynomial_range(*range);
+    const auto again = read_any_polynomials(bytes, "again.poly");
+    demand(again.has_value() && write_polynomial_range(std::get<LensPolynomialRange>(*again)) == bytes);
+    const double fraction = traced_flux_fraction(*range);
+    demand(fraction >= 0.0 && fraction <= 1.0);
+    return 0;
+  }
+  const LensPolynomials* const read = &std::get<LensPolynomials>(*any);
   const std::string written = write_polynomials(*read);
   const auto again = read_polynomials(written, "again.poly");
   demand(again.has_value() && write_polynomials(*again) == written);

@@ -171,6 +171,7 @@ PUBLIC = {
     "expert/colour_view.h": "plates",
     "expert/polynomial.h": "polynomial",
     "expert/polynomial_method.h": "render/planning",
+    "expert/polynomial_range.h": "polynomial",
     "expert/published_fits.h": "polynomial",
     "expert/published_pictures.h": "polynomial",
     "expert/published_samples.h": "polynomial",

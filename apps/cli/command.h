@@ -57,6 +57,7 @@ void add_measure_adjust(CLI::App& measure, Action& action);
 void add_measure_demo(CLI::App& measure, Action& action);
 void add_measure_predict(CLI::App& measure, Action& action);
 
+void add_polynomial_at(CLI::App& polynomial, Action& action);
 void add_polynomial_export(CLI::App& polynomial, Action& action);
 
 void add_lights_track(CLI::App& lights, Action& action);

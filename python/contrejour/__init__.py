@@ -52,6 +52,7 @@ from ._pictures import (
     read_picture,
     write_picture,
 )
+from ._polynomials import PolynomialRays, Polynomials, fit_polynomials, read_polynomials
 from ._rays import GhostFigures, TracedRays, ghosts, trace
 from ._rendering import Flare, LayeredFlare, Light, Renderer, render, render_layers, starburst
 from ._settings import Parameter, Preset, bundled_presets, find_preset, parameters
@@ -78,6 +79,8 @@ __all__ = [
     "MeasuredFlare",
     "Parameter",
     "ParseError",
+    "PolynomialRays",
+    "Polynomials",
     "Prescription",
     "Preset",
     "Renderer",
@@ -100,6 +103,7 @@ __all__ = [
     "find_glass",
     "find_lens",
     "find_preset",
+    "fit_polynomials",
     "ghosts",
     "parameters",
     "png_of",
@@ -107,6 +111,7 @@ __all__ = [
     "read_flare",
     "read_lens_toml",
     "read_picture",
+    "read_polynomials",
     "render",
     "render_layers",
     "spectral_power",

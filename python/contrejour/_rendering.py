@@ -12,6 +12,7 @@ from . import _native
 from ._lenses import AnyLens, LensState, configured
 from ._native import CancelFlag
 from ._pictures import Picture, Window, png_of
+from ._polynomials import Polynomials
 
 Progress = Callable[[float], Any]
 
@@ -88,7 +89,16 @@ class LayeredFlare(Flare):
     layers: dict[str, np.ndarray]  # by name, float32 (height, width, 3)
 
 
-def _set_lens(renderer: _native.Renderer, state: LensState) -> None:
+def _without_fit(parameters: dict[str, Any]) -> tuple[Optional[_native.Polynomials], dict[str, Any]]:
+    """The fit that is an object in place of a file's name, and the other parameters."""
+    fit = parameters.get("fit")
+    if not isinstance(fit, Polynomials):
+        return None, parameters
+    return fit._native, {name: value for name, value in parameters.items() if name != "fit"}
+
+
+def _set_lens(renderer: _native.Renderer, state: LensState, fit: Optional[_native.Polynomials] = None) -> None:
+    renderer.set_fit(fit)
     if state._measured is not None:
         renderer.set_flare(state._measured)
     else:
@@ -113,6 +123,7 @@ class Renderer:
 
     def __init__(self, lens: Optional[AnyLens] = None, *, preset: Optional[str] = None, **parameters: Any) -> None:
         self._native = _native.Renderer()
+        self._fit, parameters = _without_fit(parameters)
         self.lens = configured(lens, preset, parameters)
 
     def render(
@@ -128,9 +139,9 @@ class Renderer:
     ) -> Flare:
         """One frame; parameters count for this frame alone. See render()."""
         objects = divided(lights, parameters)
-        parameters = _sized_by(out, window, parameters)
+        fit, parameters = _without_fit(_sized_by(out, window, parameters))
         state = configured(self.lens, preset, parameters)
-        _set_lens(self._native, state)
+        _set_lens(self._native, state, fit or self._fit)
         return Flare(*self._native.render(state._values, objects, window, out, progress, cancel))
 
     def render_layers(
@@ -146,8 +157,9 @@ class Renderer:
     ) -> LayeredFlare:
         """One frame in layers. See render_layers()."""
         objects = divided(lights, parameters)
+        fit, parameters = _without_fit(parameters)
         state = configured(self.lens, None, parameters)
-        _set_lens(self._native, state)
+        _set_lens(self._native, state, fit or self._fit)
         return LayeredFlare(
             *self._native.render_layers(state._values, objects, by, count, min_percent, progress, cancel)
         )
@@ -162,8 +174,9 @@ class Renderer:
     ) -> Picture:
         """The lights' own images alone. See starburst()."""
         objects = divided(lights, parameters)
+        fit, parameters = _without_fit(parameters)
         state = configured(self.lens, None, parameters)
-        _set_lens(self._native, state)
+        _set_lens(self._native, state, fit or self._fit)
         return self._native.starburst(state._values, objects, progress, cancel)
 
 
@@ -192,14 +205,15 @@ def render(
     cancel: ends the call, which then raises CancelledError, when another thread sets the flag.
     preset: a bundled preset or a file; parameters override it.
     parameters: any of parameters(), by name: width and height (px), f_number, focus, blades, method, wavelengths, ...
+        fit is a file or Polynomials.
 
     Ctrl-C ends the call. Other Python threads run while it computes.
     """
     objects = divided(lights, parameters)
-    parameters = _sized_by(out, window, parameters)
+    fit, parameters = _without_fit(_sized_by(out, window, parameters))
     state = configured(lens, preset, parameters)
     renderer = _native.Renderer()
-    _set_lens(renderer, state)
+    _set_lens(renderer, state, fit)
     return Flare(*renderer.render(state._values, objects, window, out, progress, cancel))
 
 

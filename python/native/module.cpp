@@ -15,6 +15,7 @@ PYBIND11_MODULE(_native, module) {
   add_optics(module);
   add_measured(module);
   add_rays(module);
+  add_polynomials(module);
   add_rendering(module);
   add_pictures(module);
 }

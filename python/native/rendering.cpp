@@ -5,6 +5,7 @@
 
 #include "contrejour/expert/flare_source.h"
 #include "contrejour/expert/picture_window.h"
+#include "contrejour/expert/polynomial_method.h"
 #include "contrejour/expert/renderer_settings.h"
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
@@ -14,6 +15,7 @@
 #include "native/errors.h"
 #include "native/long_call.h"
 #include "native/objects.h"
+#include "native/polynomials.h"
 
 namespace contrejour::python {
 namespace {
@@ -56,6 +58,9 @@ class LensRenderer {
     renderer_ = *flare;
     lens_ = nullptr;
   }
+
+  // The fit of the method polynomial, in place of that of a file; none: as the parameters say.
+  void set_fit(const std::shared_ptr<AnyFit>& fit) { fit_ = fit; }
 
   // Into `out`, or into a new array. Returns the array and the statistics.
   py::tuple render(const params::Values& values, const std::vector<LightFields>& lights,
@@ -109,7 +114,17 @@ class LensRenderer {
     if (!lens_) throw py::value_error("the renderer has no lens");
     PictureRequest request = value_of(picture_request(values, *lens_, lights_of(lights)));
     value_of(configure_renderer(std::get<Renderer>(renderer_), values));
+    if (fit_) use_fit(values);
     return request;
+  }
+
+  void use_fit(const params::Values& values) {
+    MethodOptions method = params::method_options(values);
+    auto* const options = method.get_if<PolynomialRenderOptions>();
+    if (options == nullptr) throw py::value_error("a fit is for method=\"polynomial\" alone");
+    options->fit = fit_->state;
+    options->range = fit_->range;
+    value_of(std::get<Renderer>(renderer_).set_method(std::move(method)));
   }
 
   [[nodiscard]] LensState geometry() const {
@@ -119,6 +134,7 @@ class LensRenderer {
 
   SourceRenderer renderer_;
   std::shared_ptr<LensState> lens_;
+  std::shared_ptr<AnyFit> fit_;
 };
 
 }  // namespace
@@ -128,6 +144,7 @@ void add_rendering(py::module_& module) {
       .def(py::init<>())
       .def("set_lens", &LensRenderer::set_lens, py::arg("lens"))
       .def("set_flare", &LensRenderer::set_flare, py::arg("flare"))
+      .def("set_fit", &LensRenderer::set_fit, py::arg("fit"))
       .def("render_layers", &LensRenderer::render_layers, py::arg("values"), py::arg("lights"), py::arg("by"),
            py::arg("count"), py::arg("min_percent"), py::arg("progress"), py::arg("cancel"))
       .def("render", &LensRenderer::render, py::arg("values"), py::arg("lights"), py::arg("window"), py::arg("out"),

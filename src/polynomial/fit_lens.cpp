@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "polynomial/fit_lens.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,7 +11,7 @@
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "polynomial/chebyshev_basis.h"
-#include "polynomial/fit_zone.h"
+#include "polynomial/fit_field.h"
 
 namespace contrejour::inline internal::polynomial {
 namespace {
@@ -17,77 +19,6 @@ namespace {
 constexpr double kBeyondCorner = 1.1;  // of the tangent of the corner's angle
 constexpr double kPixelsAcross = 1920.0;
 constexpr int kMaxHalvings = 4;
-
-double largest_field(const LensState& lens, const PolynomialOptions& options) {
-  if (options.half_field_rad > 0.0) return std::tan(options.half_field_rad);
-  const Vec3 corner = direction_for_image_point(lens, {0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm},
-                                                lens.design_wavelength_nm);
-  return kBeyondCorner * std::hypot(corner.x, corner.y) / corner.z;
-}
-
-LensState wide_open(const LensState& lens) {
-  LensState open = lens;
-  open.stop_radius_mm = lens.surfaces[static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm;
-  return open;
-}
-
-Result<void> check_options(const PolynomialOptions& options) {
-  if (options.max_order < 5 || options.max_order > 2 * kMaxDegree + 1 || options.max_order % 2 == 0)
-    return invalid_argument(fmt::format("the largest order is {}; choose an odd one, 5 to 17", options.max_order));
-  if (options.max_halvings < 0 || options.max_halvings > kMaxHalvings)
-    return invalid_argument(fmt::format("the field cannot be halved {} times; choose 0 to 4", options.max_halvings));
-  for (const double tolerance : {options.position_px, options.edge, options.transmittance, options.target_px})
-    if (!(tolerance > 0.0 && tolerance < 1e6))
-      return invalid_argument("the tolerances of a polynomial fit must be above 0");
-  if (!(options.half_field_rad >= 0.0 && options.half_field_rad < 1.5))
-    return invalid_argument("the half field of a polynomial fit must be 0 to 85 degrees");
-  return {};
-}
-
-bool is_fitted(const LensState& lens, const Ghost& ghost) {
-  return has_axial_symmetry(lens, ghost) && ghost.order == std::array<int, 2>{0, 0} &&
-         !ghost_path(lens, ghost, lens.design_wavelength_nm).obscured;
-}
-
-bool is_traced(const PolynomialZone& zone) { return zone.state == PolynomialZone::State::Traced; }
-
-// The zones from one field to another: one, or the halves of its area if that serves a part of it.
-std::vector<PolynomialZone> fit_zones(const ZoneProblem& problem, double low, double high, int halvings) {
-  std::vector<PolynomialZone> whole{fit_zone(problem, low, high)};
-  if (!is_traced(whole.front()) || halvings == 0) return whole;
-  const double middle = std::sqrt(0.5 * (low * low + high * high));
-  std::vector<PolynomialZone> parts = fit_zones(problem, low, middle, halvings - 1);
-  for (PolynomialZone& zone : fit_zones(problem, middle, high, halvings - 1)) parts.push_back(std::move(zone));
-  return std::ranges::all_of(parts, is_traced) ? whole : parts;
-}
-
-// The part of the field with light, as it shows at some fields: a part without is a zone of its own, since a fit of few
-// fields with light has few rays.
-std::vector<PolynomialZone> fit_lit_zones(const ZoneProblem& problem, double high) {
-  constexpr int kSteps = 24;
-  constexpr double kWorthDividing = 0.85;  // of the field's area
-  const auto field_at = [&](int step) { return high * std::sqrt(static_cast<double>(step) / kSteps); };
-  int first = kSteps, last = 0;
-  for (int step = 0; step <= kSteps; ++step) {
-    if (!has_light(problem.rays.bounds(field_at(step)))) continue;
-    first = std::min(first, std::max(step - 1, 0));
-    last = std::min(step + 1, kSteps);
-  }
-  const int halvings = problem.options.max_halvings;
-  if (last <= first || last - first > kWorthDividing * kSteps) return fit_zones(problem, 0.0, high, halvings);
-  std::vector<PolynomialZone> zones;
-  const auto add_dark = [&](int from, int to) {
-    if (from == to) return;
-    zones.emplace_back();
-    zones.back().field_low = field_at(from);
-    zones.back().field_high = field_at(to);
-  };
-  add_dark(0, first);
-  for (PolynomialZone& zone : fit_zones(problem, field_at(first), field_at(last), halvings))
-    zones.push_back(std::move(zone));
-  add_dark(last, kSteps);
-  return zones;
-}
 
 GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps, const LensPolynomials& all,
                            const PolynomialOptions& options, const Ghost& ghost) {
@@ -99,7 +30,10 @@ GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps
   }
   const GhostRays rays(lens, steps, ghost, all.entrance_z_mm);
   const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
-  return {ghost, fit_lit_zones({all, options, rays, sensor_half_mm}, all.max_field)};
+  GhostPolynomials fitted{ghost, {}};
+  for (auto& zone : fit_field({all, options, {{&rays, 1.0}}, {{&rays, {1.0}}}, sensor_half_mm}, all.max_field))
+    fitted.zones.push_back(std::move(zone.front()));
+  return fitted;
 }
 
 class Fingerprint {
@@ -127,6 +61,59 @@ double opening_of(const SurfaceState& surface) {
 }
 
 }  // namespace
+
+double largest_field(const LensState& lens, const PolynomialOptions& options) {
+  if (options.half_field_rad > 0.0) return std::tan(options.half_field_rad);
+  const Vec3 corner = direction_for_image_point(lens, {0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm},
+                                                lens.design_wavelength_nm);
+  return kBeyondCorner * std::hypot(corner.x, corner.y) / corner.z;
+}
+
+LensState wide_open(const LensState& lens) {
+  LensState open = lens;
+  open.stop_radius_mm = lens.surfaces[static_cast<std::size_t>(lens.stop_index)].semi_diameter_mm;
+  return open;
+}
+
+Result<void> check_fit_options(const PolynomialOptions& options) {
+  if (options.max_order < 5 || options.max_order > 2 * kMaxDegree + 1 || options.max_order % 2 == 0)
+    return invalid_argument(fmt::format("the largest order is {}; choose an odd one, 5 to 17", options.max_order));
+  if (options.max_halvings < 0 || options.max_halvings > kMaxHalvings)
+    return invalid_argument(fmt::format("the field cannot be halved {} times; choose 0 to 4", options.max_halvings));
+  for (const double tolerance : {options.position_px, options.edge, options.transmittance, options.target_px})
+    if (!(tolerance > 0.0 && tolerance < 1e6))
+      return invalid_argument("the tolerances of a polynomial fit must be above 0");
+  if (!(options.half_field_rad >= 0.0 && options.half_field_rad < 1.5))
+    return invalid_argument("the half field of a polynomial fit must be 0 to 85 degrees");
+  return {};
+}
+
+bool is_fitted(const LensState& lens, const Ghost& ghost) {
+  return has_axial_symmetry(lens, ghost) && ghost.order == std::array<int, 2>{0, 0} &&
+         !ghost_path(lens, ghost, lens.design_wavelength_nm).obscured;
+}
+
+Result<std::vector<Ghost>> ghosts_to_fit(const LensState& lens, const PolynomialOptions& options) {
+  std::vector<Ghost> ghosts =
+      options.ghosts.empty() ? enumerate_ghosts(lens, options.scope, options.reflections) : options.ghosts;
+  for (const Ghost& ghost : ghosts)
+    if (!has_ghost(lens, ghost))
+      return invalid_argument(fmt::format("there is no ghost {} in this lens", ghost_name(ghost)));
+  return ghosts;
+}
+
+LensPolynomials without_ghosts(const LensState& lens, const PolynomialOptions& options) {
+  const LensState open = wide_open(lens);
+  LensPolynomials all;
+  all.lens = lens.name;
+  all.fingerprint = polynomial_fingerprint(lens);
+  all.entrance_z_mm = entrance_window(open, LightSource({0.0, 0.0, 1.0})).z_mm;
+  all.stop_radius_mm = open.stop_radius_mm;
+  all.pixel_mm = lens.sensor_width_mm / kPixelsAcross;
+  all.max_field = largest_field(lens, options);
+  return all;
+}
+
 }  // namespace contrejour::inline internal::polynomial
 
 namespace contrejour {
@@ -164,22 +151,14 @@ std::uint64_t polynomial_fingerprint(const LensState& lens) {
 Result<LensPolynomials> fit_polynomials(const LensState& lens, const PolynomialOptions& options,
                                         const Context& context) {
   if (const auto good = check_lens(lens); !good) return tl::unexpected(good.error());
-  if (const auto good = check_options(options); !good) return tl::unexpected(good.error());
+  if (const auto good = check_fit_options(options); !good) return tl::unexpected(good.error());
   const LensState open = wide_open(lens);
   const TablesByWavelength tables(open);
   const StepsByWavelength steps(open, tables);
-  LensPolynomials all;
-  all.lens = lens.name;
-  all.fingerprint = polynomial_fingerprint(lens);
-  all.entrance_z_mm = entrance_window(open, LightSource({0.0, 0.0, 1.0})).z_mm;
-  all.stop_radius_mm = open.stop_radius_mm;
-  all.pixel_mm = lens.sensor_width_mm / kPixelsAcross;
-  all.max_field = largest_field(lens, options);
-  const std::vector<Ghost> ghosts =
-      options.ghosts.empty() ? enumerate_ghosts(lens, options.scope, options.reflections) : options.ghosts;
-  for (const Ghost& ghost : ghosts)
-    if (!has_ghost(lens, ghost))
-      return invalid_argument(fmt::format("there is no ghost {} in this lens", ghost_name(ghost)));
+  LensPolynomials all = without_ghosts(lens, options);
+  const auto wanted = ghosts_to_fit(lens, options);
+  if (!wanted) return tl::unexpected(wanted.error());
+  const std::vector<Ghost>& ghosts = *wanted;
   std::vector<GhostPolynomials> fitted(ghosts.size());
   const bool done = parallel_for(ghosts.size(), context,
                                  [&](std::size_t k) { fitted[k] = fit_ghost(open, steps, all, options, ghosts[k]); });
@@ -194,7 +173,7 @@ double traced_flux_fraction(const LensPolynomials& polynomials) {
     for (const PolynomialZone& zone : ghost.zones) {
       const double flux = zone.flux_mm2 * (zone.field_high * zone.field_high - zone.field_low * zone.field_low);
       sum += flux;
-      if (is_traced(zone)) traced += flux;
+      if (zone.state == PolynomialZone::State::Traced) traced += flux;
     }
   }
   return sum > 0.0 ? traced / sum : 0.0;

@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits one ghost's polynomials over a zone of the field.
+// Fits one ghost's polynomials over a zone of the field, at one state of a lens or at the nodes of a range of states.
 #pragma once
+
+#include <vector>
 
 #include "polynomial/zone_rays.h"
 
 namespace contrejour::inline internal::polynomial {
 
+// A state of the lens.
+struct FitState {
+  const GhostRays* rays = nullptr;
+  double field_scale = 1.0;  // tangents over a zone's numbers
+};
+
+// A state at which a fit is tested by rays left out, and the weights of the nodes there.
+struct TestState {
+  const GhostRays* rays = nullptr;
+  std::vector<double> weights;
+};
+
 struct ZoneProblem {
   const LensPolynomials& lens;  // without ghosts
   const PolynomialOptions& options;
-  const GhostRays& rays;
+  std::vector<FitState> nodes;
+  std::vector<TestState> tests;  // one node: the node itself; else states between nodes
   Vec2 sensor_half_mm;
 };
 
-// field_low, field_high: tangents. A zone that does not reach the accuracy is Traced, without polynomials.
-[[nodiscard]] PolynomialZone fit_zone(const ZoneProblem& problem, double field_low, double field_high);
+// low, high: of the field, over the nodes' scales. The zone at each node: all have the same state, orders and rims.
+// Zones that do not reach the accuracy at all tests are Traced, without polynomials.
+[[nodiscard]] std::vector<PolynomialZone> fit_zone(const ZoneProblem& problem, double low, double high);
 
 }  // namespace contrejour::inline internal::polynomial

@@ -102,15 +102,19 @@ Result<LensSettings> lens_settings(const Values& values) {
   return settings;
 }
 
-Result<LensState> lens_of(Prescription lens, const Values& values) {
-  const auto settings = lens_settings(values);
-  if (!settings) return tl::unexpected(settings.error());
+Prescription with_sensor(Prescription lens, const Values& values) {
   if (const auto sensor = values.text("sensor")) {
     const SensorFormat format = *parse_sensor(*sensor);
     lens.sensor_width_mm = format.width_mm;
     lens.sensor_height_mm = format.height_mm;
   }
-  return configure_lens(lens, *settings);
+  return lens;
+}
+
+Result<LensState> lens_of(Prescription lens, const Values& values) {
+  const auto settings = lens_settings(values);
+  if (!settings) return tl::unexpected(settings.error());
+  return configure_lens(with_sensor(std::move(lens), values), *settings);
 }
 
 }  // namespace contrejour::params

@@ -343,6 +343,26 @@ class PolynomialBench(ProgramTest):
         self.error_of("bench", "polynomial", "--tables", "zones", "--lens", "nothing", code=1)
 
 
+class PolynomialRange(ProgramTest):
+    """One fit for a range of focus: it draws each of its states as that state's own file does."""
+
+    def test_fit_at_and_render(self):
+        lens = ("cooke-triplet", "--ghosts", "one-side")
+        self.run_program("polynomial", "fit", *lens, "--focus-range", "2000,inf", "--max-order", "11", "-o", "a.poly")
+        info = json.loads(self.run_program("polynomial", "info", "a.poly", "--json").stdout)
+        self.assertEqual(info["range"], "objects from 2000 to inf mm")
+        self.assertEqual(len(info["ghosts"]), 7)
+        self.run_program("polynomial", "at", "a.poly", "cooke-triplet", "--focus", "3m", "-o", "b.poly")
+        frame = ("--size", "48x32", "--light", "9,5", "--method", "polynomial", "--focus", "3m")
+        for fit in ("a", "b"):
+            self.run_program("render", *lens, *frame, "--fit", f"{fit}.poly", "-o", f"{fit}.exr")
+        compared = json.loads(self.run_program("compare", "a.exr", "b.exr", "--json").stdout)
+        self.assertEqual(compared["max_abs_error"], 0)
+        self.assertIn("one of", self.error_of("polynomial", "at", "b.poly", "cooke-triplet", "-o", "c.poly", code=1))
+        self.error_of("polynomial", "at", "a.poly", "cooke-triplet", "--focus", "1m", "-o", "c.poly", code=1)
+        self.assertIn("polynomial at", self.error_of("polynomial", "export", "a.poly", "-o", "c.py", code=1))
+
+
 class HullinBench(ProgramTest):
     """hullin2011's figures, as small as they still show what they are about."""
 

@@ -326,5 +326,74 @@ class RaysTest(unittest.TestCase):
             contrejour.trace(state, origins, directions, ghost=(1, 40))
 
 
+class PolynomialsTest(unittest.TestCase):
+    ONLY = {"only": [(1, 2), (3, 6)], "max_order": 9}
+
+    def test_fit_and_evaluate(self):
+        fit = contrejour.fit_polynomials(LENS, **self.ONLY)
+        self.assertEqual(sorted(fit.ghosts), [(1, 2), (3, 6)])
+        self.assertFalse(fit.is_range)
+        self.assertIn("2 ghosts", repr(fit))
+        zone = fit.ghosts[1, 2][0]
+        self.assertEqual(zone["state"], "fitted")
+        self.assertLess(zone["position_p95_px"], 0.25)
+        # Against traced rays of the same light: from -x, through points of the entrance plane.
+        angle = 0.5 * math.atan(zone["field"][0] + zone["field"][1])
+        points = np.random.default_rng(1).uniform(-3, 3, (200, 2))
+        rays = fit.evaluate((1, 2), math.degrees(angle), points, 550)
+        origins = np.column_stack([points, np.full(200, fit.entrance_z_mm)])
+        directions = np.tile([math.sin(angle), 0.0, math.cos(angle)], (200, 1))
+        traced = contrejour.trace(LENS, origins, directions, ghost=(1, 2), lambda_nm=550)
+        both = rays.passed & traced.passed
+        self.assertGreater(both.sum(), 20)
+        pixel_mm = 36 / 1920
+        errors = np.linalg.norm(rays.sensor_mm - traced.sensor_mm, axis=1)[both]
+        self.assertLess(np.quantile(errors, 0.95), 0.25 * pixel_mm)
+        np.testing.assert_allclose(rays.transmittance[both], traced.transmission[both], rtol=0.02)
+        with self.assertRaisesRegex(ValueError, "no such ghost"):
+            fit.evaluate((1, 3), 5, points)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            fit.evaluate((1, 2), 5, points[0])
+
+    def test_renderer_and_file(self):
+        fit = contrejour.fit_polynomials(LENS, **self.ONLY)
+        frame = {**QUICK, "error": 0.005, "ghosts": "one-side"}
+        adaptive = contrejour.render(LENS, LIGHT, **frame).image
+        flare = contrejour.render(LENS, LIGHT, method="polynomial", fit=fit, **frame)
+        np.testing.assert_allclose(flare.image.sum(), adaptive.sum(), rtol=0.02)
+        self.assertLess(flare.statistics["traced_flux"], 1)  # the ghosts that are not in the fit are traced
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.poly")
+            fit.write(file)
+            again = contrejour.read_polynomials(file)
+            self.assertEqual(again.ghosts, fit.ghosts)
+            renderer = contrejour.Renderer(LENS, method="polynomial", fit=again, **frame)
+            np.testing.assert_array_equal(renderer.render(LIGHT).image, flare.image)
+            np.testing.assert_array_equal(
+                contrejour.render(LENS, LIGHT, method="polynomial", fit=file, **frame).image, flare.image
+            )
+        with self.assertRaisesRegex(ValueError, "polynomial"):
+            contrejour.render(LENS, LIGHT, method="bundle", fit=fit, **frame)
+        with self.assertRaisesRegex(contrejour.Error, "another lens"):
+            contrejour.render("tessar", LIGHT, method="polynomial", fit=fit, **frame)
+
+    def test_range(self):
+        fit = contrejour.fit_polynomials(LENS, focus=(2000, math.inf), **self.ONLY)
+        self.assertTrue(fit.is_range)
+        near = {"focus": "4m"}
+        state = fit.at(LENS, **near)
+        frame = {**QUICK, "ghosts": "one-side", "method": "polynomial", **near}
+        np.testing.assert_array_equal(
+            contrejour.render(LENS, LIGHT, fit=fit, **frame).image,
+            contrejour.render(LENS, LIGHT, fit=state, **frame).image,
+        )
+        with self.assertRaisesRegex(ValueError, "at\\(\\)"):
+            fit.evaluate((1, 2), 5, np.zeros((1, 2)))
+        with self.assertRaises(contrejour.Error):
+            fit.at(LENS, focus="1m")
+        with self.assertRaises(TypeError):
+            contrejour.fit_polynomials(LENS, zoom=(1, 2), focus=(1, 2))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -43,7 +43,7 @@ inline Result<MethodOptions> options_for(std::string_view method, const LensStat
   auto options = settings.options(method);
   if (!options) return options;
   if (auto* const own = options->get_if<PolynomialRenderOptions>())
-    if (!own->fit && own->file.empty()) own->fit = shared_fit(lens, settings);
+    if (!own->fit && !own->range && own->file.empty()) own->fit = shared_fit(lens, settings);
   return options;
 }
 

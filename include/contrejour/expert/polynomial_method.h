@@ -11,14 +11,17 @@
 
 namespace contrejour {
 
+struct LensPolynomialRange;
 struct LensPolynomials;
 
 struct CONTREJOUR_API PolynomialRenderOptions {
   static constexpr std::string_view kMethod = "polynomial";
   double error = 0.003;  // limit of the RMS error, relative to the frame's peak, without the fit's; 1e-4 to 0.1
-  // The fit, or else its file. With neither, the ghosts that a frame needs are fitted, which takes about a tenth of a
-  // second each; a Renderer keeps them for its next frames. A fit of another lens is refused.
+  // The fit, or that of a range of zoom or focus, of which the lens's state is taken, or else a file of either. With
+  // none of them, the ghosts that a frame needs are fitted, which takes about a tenth of a second each; a Renderer
+  // keeps them for its next frames. A fit of another lens is refused.
   std::shared_ptr<const LensPolynomials> fit = nullptr;
+  std::shared_ptr<const LensPolynomialRange> range = nullptr;
   std::filesystem::path file = {};
 };
 

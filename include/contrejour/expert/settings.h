@@ -23,6 +23,9 @@ inline constexpr double kDegree_rad = 0.017453292519943295;
 // Errors: a picture of the iris or of dirt that cannot be read or used.
 [[nodiscard]] CONTREJOUR_API Result<LensSettings> lens_settings(const Values& values);
 
+// The lens with the size of --sensor, if that is given.
+[[nodiscard]] CONTREJOUR_API Prescription with_sensor(Prescription lens, const Values& values);
+
 // The lens configured by --sensor and the lens's settings. Errors: those of lens_settings() and configure_lens().
 [[nodiscard]] CONTREJOUR_API Result<LensState> lens_of(Prescription lens, const Values& values);
 

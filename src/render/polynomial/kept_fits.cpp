@@ -6,16 +6,18 @@
 #include <iterator>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
-#include "contrejour/expert/polynomial.h"
+#include "contrejour/expert/polynomial_range.h"
 
 namespace contrejour::inline internal {
 namespace {
 
 using polynomial::FittedLens;
 using Fit = std::shared_ptr<const LensPolynomials>;
+using FitRange = std::shared_ptr<const LensPolynomialRange>;
 
 // The fingerprint of a lens, which takes longer to find than a frame of few lights.
 struct KeptFingerprint {
@@ -37,12 +39,28 @@ std::uint64_t fingerprint_of(const PlannedFrame& planned) {
   return *kept->value;
 }
 
-// A fit that was given, or read from a file.
+// What a file has.
+struct KeptFile {
+  struct Key {
+    std::filesystem::path file;
+    std::filesystem::file_time_type written;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  explicit KeptFile(const Key& /*key*/) {}
+  [[nodiscard]] std::size_t memory_bytes() const { return bytes; }
+  Fit fit;
+  FitRange range;
+  std::size_t bytes = 0;
+};
+
+// A fit that was given, or that of the lens's state in a range; for the latter, the state.
 struct KeptFit {
   struct Key {
     Fit fit;
-    std::filesystem::path file;
-    std::filesystem::file_time_type written;
+    FitRange range;
+    std::vector<SurfaceState> surfaces;
+    double sensor_z_mm = 0.0, focal_length_mm = 0.0, object_distance_mm = 0.0;
+    bool absorption = false;
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit KeptFit(const Key& /*key*/) {}
@@ -64,29 +82,41 @@ struct MadeFit {
   std::shared_ptr<const FittedLens> lens;
 };
 
-Result<Fit> given_fit(const PolynomialRenderOptions& options) {
-  if (options.fit) return options.fit;
-  auto read = read_polynomial_file(options.file);
+Result<std::shared_ptr<KeptFile>> read_fit(const PlannedFrame& planned, const std::filesystem::path& file) {
+  std::error_code ignored;  // reading tells what is wrong
+  const std::shared_ptr<KeptFile> kept =
+      planned.cache.section<KeptFile>({file, std::filesystem::last_write_time(file, ignored)});
+  if (kept->fit || kept->range) return kept;
+  auto read = read_any_polynomial_file(file);
   if (!read) return tl::unexpected(read.error());
-  return std::make_shared<const LensPolynomials>(std::move(*read));
+  kept->bytes = std::filesystem::file_size(file, ignored);
+  if (auto* const fit = std::get_if<LensPolynomials>(&*read))
+    kept->fit = std::make_shared<const LensPolynomials>(std::move(*fit));
+  else
+    kept->range = std::make_shared<const LensPolynomialRange>(std::get<LensPolynomialRange>(std::move(*read)));
+  return kept;
 }
 
-Result<std::shared_ptr<const FittedLens>> kept_fit(const PlannedFrame& planned,
-                                                   const PolynomialRenderOptions& options) {
-  KeptFit::Key key{options.fit, options.fit ? std::filesystem::path() : options.file, {}};
-  std::error_code ignored;  // reading tells what is wrong
-  if (!options.fit) key.written = std::filesystem::last_write_time(options.file, ignored);
-  const std::shared_ptr<KeptFit> kept = planned.cache.section<KeptFit>(key);
-  if (!kept->lens) {
-    const auto fit = given_fit(options);
-    if (!fit) return tl::unexpected(fit.error());
-    kept->lens = std::make_shared<const FittedLens>(*fit);
-  }
+Result<std::shared_ptr<const FittedLens>> fit_in_range(const PlannedFrame& planned, const FitRange& range) {
+  const LensState& lens = planned.lens;
+  const std::shared_ptr<KeptFit> kept =
+      planned.cache.section<KeptFit>({nullptr, range, lens.surfaces, lens.sensor_z_mm, lens.focal_length_mm,
+                                      lens.object_distance_mm, lens.absorption});
+  if (kept->lens) return kept->lens;
+  auto fit = polynomials_at(*range, lens);
+  if (!fit) return tl::unexpected(fit.error());
+  kept->lens = std::make_shared<const FittedLens>(std::make_shared<const LensPolynomials>(std::move(*fit)));
+  return kept->lens;
+}
+
+Result<std::shared_ptr<const FittedLens>> kept_fit(const PlannedFrame& planned, const Fit& given) {
+  const std::shared_ptr<KeptFit> kept = planned.cache.section<KeptFit>({given, nullptr, {}, 0.0, 0.0, 0.0, false});
+  if (!kept->lens) kept->lens = std::make_shared<const FittedLens>(given);
   const LensPolynomials& fit = kept->lens->fit();
   if (fit.fingerprint != fingerprint_of(planned))
     return invalid_argument(fmt::format(
         "the fit is one of '{}' at other settings, or of another lens; zoom, focus, coatings and the sensor's "
-        "place need a fit of their own (`contrejour polynomial fit`)",
+        "place need a fit of their own, or one of a range (`contrejour polynomial fit`)",
         fit.lens));
   return kept->lens;
 }
@@ -119,8 +149,12 @@ Result<std::shared_ptr<const FittedLens>> made_fit(const PlannedFrame& planned, 
 
 Result<std::shared_ptr<const FittedLens>> fitted_lens(const PlannedFrame& planned,
                                                       const PolynomialRenderOptions& options, const Context& context) {
-  if (options.fit || !options.file.empty()) return kept_fit(planned, options);
-  return made_fit(planned, context);
+  if (options.fit) return kept_fit(planned, options.fit);
+  if (options.range) return fit_in_range(planned, options.range);
+  if (options.file.empty()) return made_fit(planned, context);
+  const auto file = read_fit(planned, options.file);
+  if (!file) return tl::unexpected(file.error());
+  return (*file)->fit ? kept_fit(planned, (*file)->fit) : fit_in_range(planned, (*file)->range);
 }
 
 }  // namespace contrejour::inline internal

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "polynomial/poly_zones.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "polynomial/chebyshev_basis.h"
+
+namespace contrejour::inline internal::polynomial {
+namespace {
+
+constexpr std::size_t kMaxRims = 128, kMaxBounds = 256;
+
+// Whole numbers as signed LEB128, seven bits a byte, the lowest first: small ones take one byte.
+void add_leb128(std::string& to, std::int64_t value) {
+  for (;;) {
+    const auto bits = static_cast<unsigned char>(value & 0x7f);
+    value >>= 7;
+    const bool last = (value == 0 && (bits & 0x40) == 0) || (value == -1 && (bits & 0x40) != 0);
+    to.push_back(static_cast<char>(last ? bits : bits | 0x80));
+    if (last) return;
+  }
+}
+
+// The next number; none at the end, or where it has more than 35 bits.
+std::optional<std::int64_t> next_leb128(std::string_view& from) {
+  std::int64_t value = 0;
+  for (unsigned shift = 0; shift < 35 && !from.empty(); shift += 7) {
+    const auto byte = static_cast<unsigned char>(from.front());
+    from.remove_prefix(1);
+    value |= static_cast<std::int64_t>(byte & 0x7fU) << shift;
+    if ((byte & 0x80U) != 0) continue;
+    if ((byte & 0x40U) != 0) value |= -(std::int64_t{1} << (shift + 7));
+    return value;
+  }
+  return std::nullopt;
+}
+
+CborNode node_of(const ChebyshevSum& sum) {
+  std::string bytes;
+  for (const float c : sum.coefficients) add_leb128(bytes, std::llround(static_cast<double>(c) / sum.step));
+  return cbor_list({cbor_number(sum.degree), cbor_number(sum.wavelength_terms), cbor_number(std::ilogb(sum.step)),
+                    cbor_bytes(std::move(bytes))});
+}
+
+CborNode node_of(const ChebyshevVector& vector) {
+  return cbor_list({node_of(vector.along_field), node_of(vector.along_pupil)});
+}
+
+CborNode node_of(const PolynomialAccuracy& accuracy) {
+  return cbor_list({cbor_number(accuracy.position_p50_px), cbor_number(accuracy.position_p95_px),
+                    cbor_number(accuracy.position_max_px), cbor_number(accuracy.edge_p95),
+                    cbor_number(accuracy.transmittance_p95), cbor_number(accuracy.rays)});
+}
+
+// Little-endian floats.
+CborNode node_of(std::span<const PolynomialBounds> bounds) {
+  std::string bytes;
+  for (const PolynomialBounds& b : bounds)
+    for (const float value : {b.field, b.low_x_mm, b.high_x_mm, b.half_y_mm})
+      for (unsigned shift = 0; shift < 32; shift += 8)
+        bytes.push_back(static_cast<char>(std::bit_cast<std::uint32_t>(value) >> shift & 0xffU));
+  return cbor_bytes(std::move(bytes));
+}
+
+constexpr std::array<std::string_view, 3> kStates{"fitted", "traced", "dark"};  // in the order of the enumeration
+
+ChebyshevSum read_sum(PolyReader& read, const CborNode* node) {
+  const auto parts = read.list(node, "a polynomial", 4, 4);
+  if (read.failed()) return {};
+  ChebyshevSum sum;
+  sum.degree = read.whole(&parts[0], "a degree", 0, kMaxDegree);
+  sum.wavelength_terms = read.whole(&parts[1], "the number of wavelength terms", 1, kMaxWavelengthTerms);
+  sum.step = static_cast<float>(std::ldexp(1.0, read.whole(&parts[2], "a step", -100, 60)));
+  std::string_view rest = read.bytes(&parts[3], "coefficients");
+  if (read.failed()) return {};
+  const int count = term_count(sum.degree) * sum.wavelength_terms;
+  for (int k = 0; k < count; ++k) {
+    const auto value = next_leb128(rest);
+    if (!value || std::abs(*value) > (std::int64_t{1} << 24)) {
+      read.fail("a polynomial has too few coefficients, or one that is too large");
+      return {};
+    }
+    sum.coefficients.push_back(static_cast<float>(*value) * sum.step);
+  }
+  if (!rest.empty()) read.fail("a polynomial has too many coefficients");
+  return sum;
+}
+
+ChebyshevVector read_vector(PolyReader& read, const CborNode* node) {
+  const auto parts = read.list(node, "a vector", 2, 2);
+  if (read.failed()) return {};
+  ChebyshevVector vector{read_sum(read, &parts[0]), read_sum(read, &parts[1])};
+  if (vector.along_field.degree != vector.along_pupil.degree) read.fail("the parts of a vector differ in degree");
+  return vector;
+}
+
+PolynomialAccuracy read_accuracy(PolyReader& read, const CborNode* node) {
+  const auto parts = read.list(node, "an accuracy", 6, 6);
+  if (read.failed()) return {};
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const auto error = [&](std::size_t k) { return read.number(&parts[k], "an accuracy", 0.0, kAny); };
+  return {error(0), error(1), error(2), error(3), error(4), read.whole(&parts[5], "a number of rays", 0, 1 << 30)};
+}
+
+std::vector<PolynomialBounds> read_bounds(PolyReader& read, const CborNode* node, const PolynomialZone& zone) {
+  const std::string_view bytes = read.bytes(node, "the bounds of a pupil");
+  std::vector<PolynomialBounds> bounds;
+  if (read.failed()) return bounds;
+  if (bytes.size() % 16 != 0 || bytes.size() < 32 || bytes.size() > 16 * kMaxBounds)
+    read.fail("the bounds of a pupil have a wrong length");
+  float before = 0.0F;
+  for (std::size_t at = 0; at + 16 <= bytes.size() && !read.failed(); at += 16) {
+    std::array<float, 4> values{};
+    for (std::size_t k = 0; k < 16; ++k) {
+      auto bits = std::bit_cast<std::uint32_t>(values[k / 4]);
+      bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + k])) << (8 * (k % 4));
+      values[k / 4] = std::bit_cast<float>(bits);
+    }
+    for (const float value : values)
+      if (!(std::abs(value) < 1e6F)) read.fail("the bounds of a pupil are out of range");
+    if (values[0] < before || static_cast<double>(values[0]) > 1.001 * zone.field_high + 1e-6)
+      read.fail("the bounds of a pupil do not rise");
+    before = values[0];
+    bounds.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return bounds;
+}
+
+void read_polynomials_of(PolyReader& read, const CborNode& node, PolynomialZone& zone) {
+  zone.order = read.whole(node.find("order"), "an order", 1, 2 * kMaxDegree + 1);
+  const auto pupil = read.list(node.find("pupil"), "the pupil coordinates", 3, 3);
+  if (read.failed()) return;
+  zone.centre_mm = read.number(&pupil[0], "the pupil's centre", -1e6, 1e6);
+  zone.centre_slope_mm = read.number(&pupil[1], "the pupil's centre", -1e6, 1e6);
+  zone.radius_mm = read.number(&pupil[2], "the pupil's radius", 1e-9, 1e6);
+  zone.bounds = read_bounds(read, node.find("bounds"), zone);
+  zone.sensor_mm = read_vector(read, node.find("sensor"));
+  for (const CborNode& crossing : read.list(node.find("stop"), "the stop", 0, kMaxStopCrossings)) {
+    zone.stop.push_back(read_vector(read, &crossing));
+    if (read.failed()) return;
+  }
+  for (const CborNode& rim : read.list(node.find("rims"), "the rims", 0, kMaxRims)) {
+    const auto parts = read.list(&rim, "a rim", 2, 2);
+    if (read.failed()) return;
+    zone.rims.push_back({read.whole(&parts[0], "a rim's step", 0, 10'000), read_sum(read, &parts[1])});
+    if (read.failed()) return;
+  }
+  zone.transmittance = read_sum(read, node.find("transmittance"));
+}
+
+}  // namespace
+
+CborNode zone_node(const PolynomialZone& zone) {
+  CborNode node;
+  node.add("state", cbor_text(std::string(kStates[static_cast<std::size_t>(zone.state)])));
+  node.add("field", cbor_list({cbor_number(zone.field_low), cbor_number(zone.field_high)}));
+  node.add("flux", cbor_number(zone.flux_mm2));
+  node.add("accuracy", node_of(zone.accuracy));
+  if (zone.state != PolynomialZone::State::Fitted) return node;
+  node.add("order", cbor_number(zone.order));
+  node.add("pupil",
+           cbor_list({cbor_number(zone.centre_mm), cbor_number(zone.centre_slope_mm), cbor_number(zone.radius_mm)}));
+  node.add("bounds", node_of(zone.bounds));
+  node.add("sensor", node_of(zone.sensor_mm));
+  CborNode stop = cbor_list(), rims = cbor_list();
+  for (const ChebyshevVector& crossing : zone.stop) stop.list.push_back(node_of(crossing));
+  for (const PolynomialRim& rim : zone.rims)
+    rims.list.push_back(cbor_list({cbor_number(rim.step), node_of(rim.squared)}));
+  node.add("stop", std::move(stop));
+  node.add("rims", std::move(rims));
+  node.add("transmittance", node_of(zone.transmittance));
+  return node;
+}
+
+PolynomialZone read_zone(PolyReader& read, const CborNode& node) {
+  PolynomialZone zone;
+  const std::string state = read.text(node.find("state"), "the state of a zone");
+  const auto found = std::ranges::find(kStates, state);
+  const auto field = read.list(node.find("field"), "the field of a zone", 2, 2);
+  if (found == kStates.end()) read.fail(fmt::format("'{}' is no state of a zone", state));
+  if (read.failed()) return zone;
+  zone.state = static_cast<PolynomialZone::State>(found - kStates.begin());
+  zone.field_low = read.number(&field[0], "the field of a zone", 0.0, 100.0);
+  zone.field_high = read.number(&field[1], "the field of a zone", 0.0, 100.0);
+  if (!(zone.field_high > zone.field_low)) read.fail("a zone of the field is empty");
+  zone.flux_mm2 = read.number(node.find("flux"), "the flux of a zone", 0.0, 1e12);
+  zone.accuracy = read_accuracy(read, node.find("accuracy"));
+  if (!read.failed() && zone.state == PolynomialZone::State::Fitted) read_polynomials_of(read, node, zone);
+  return zone;
+}
+
+CborNode ghost_name_node(const Ghost& ghost) {
+  CborNode name = cbor_list();
+  for (const int part : {ghost.i, ghost.j, ghost.k, ghost.l, ghost.order[0], ghost.order[1]})
+    name.list.push_back(cbor_number(part));
+  return name;
+}
+
+Ghost read_ghost_name(PolyReader& read, const CborNode* node) {
+  const auto name = read.list(node, "the surfaces of a ghost", 6, 6);
+  if (read.failed()) return {};
+  std::array<int, 6> parts{};
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    parts[k] = read.whole(&name[k], "a surface of a ghost", k < 4 ? 0 : -1000, 10'000);
+  return {parts[0], parts[1], parts[2], parts[3], {parts[4], parts[5]}};
+}
+
+}  // namespace contrejour::inline internal::polynomial

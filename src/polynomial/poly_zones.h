@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Zones of polynomials in CBOR, and a reader of values that may be wrong: docs/formats/poly.md.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/cbor_tree.h"
+#include "contrejour/expert/polynomial.h"
+
+namespace contrejour::inline internal::polynomial {
+
+// Reads values, and remembers the first that is wrong.
+class PolyReader {
+ public:
+  [[nodiscard]] const std::optional<std::string>& error() const { return error_; }
+
+  double number(const CborNode* node, std::string_view what, double low, double high) {
+    if (node != nullptr && node->kind == CborNode::Kind::Number && node->number >= low && node->number <= high)
+      return node->number;
+    fail(fmt::format("{} is missing or out of range", what));
+    return low;
+  }
+  int whole(const CborNode* node, std::string_view what, int low, int high) {
+    const double value = number(node, what, low, high);
+    if (value != std::floor(value)) fail(fmt::format("{} is not a whole number", what));
+    return static_cast<int>(value);
+  }
+  std::string text(const CborNode* node, std::string_view what) {
+    if (node != nullptr && node->kind == CborNode::Kind::Text) return node->text;
+    fail(fmt::format("{} is missing", what));
+    return {};
+  }
+  std::string_view bytes(const CborNode* node, std::string_view what) {
+    if (node != nullptr && node->kind == CborNode::Kind::Bytes) return node->text;
+    fail(fmt::format("{} is missing", what));
+    return {};
+  }
+  std::span<const CborNode> list(const CborNode* node, std::string_view what, std::size_t low, std::size_t high) {
+    if (node != nullptr && node->kind == CborNode::Kind::List && node->list.size() >= low && node->list.size() <= high)
+      return node->list;
+    fail(fmt::format("{} is missing or has a wrong length", what));
+    return {};
+  }
+  void fail(std::string message) {
+    if (!error_) error_ = std::move(message);
+  }
+  [[nodiscard]] bool failed() const { return error_.has_value(); }
+
+ private:
+  std::optional<std::string> error_;
+};
+
+[[nodiscard]] CborNode zone_node(const PolynomialZone& zone);
+[[nodiscard]] PolynomialZone read_zone(PolyReader& read, const CborNode& node);
+
+// [i, j, k, l, order x, order y].
+[[nodiscard]] CborNode ghost_name_node(const Ghost& ghost);
+[[nodiscard]] Ghost read_ghost_name(PolyReader& read, const CborNode* node);
+
+}  // namespace contrejour::inline internal::polynomial
