@@ -23,8 +23,8 @@ float median_of(std::vector<float>& values) {
 
 double distance_px(int x, int y, Vec2 light_px) { return std::hypot(x + 0.5 - light_px.x, y + 0.5 - light_px.y); }
 
-bool is_inside(const Image& residual, int x, int y) {
-  return residual.at(x, y, 0) != 0 || residual.at(x, y, 1) != 0 || residual.at(x, y, 2) != 0;
+bool is_inside(const Image& photograph, int x, int y) {
+  return photograph.at(x, y, 0) != 0 || photograph.at(x, y, 1) != 0 || photograph.at(x, y, 2) != 0;
 }
 
 // Between the middles of its rings. Beyond the last that has a level it is taken to fall by r^-2, which is a guess:
@@ -50,14 +50,14 @@ float factor_of(const RingLevels& station, const RingLevels& halo) {
 
 }  // namespace
 
-RingLevels ring_levels(const Image& residual, Vec2 light_px) {
+RingLevels ring_levels(const Image& residual, const Image& photograph, Vec2 light_px) {
   const auto count = static_cast<std::size_t>(residual.width + residual.height);
   std::array<std::vector<std::vector<float>>, 3> rings;
   for (auto& channel : rings) channel.resize(count);
   for (int y = 0; y < residual.height; ++y)
     for (int x = 0; x < residual.width; ++x) {
       const auto ring = static_cast<std::size_t>(distance_px(x, y, light_px));
-      if (ring >= count || !is_inside(residual, x, y)) continue;
+      if (ring >= count || !is_inside(photograph, x, y)) continue;
       for (int c = 0; c < 3; ++c) rings[static_cast<std::size_t>(c)][ring].push_back(residual.at(x, y, c));
     }
   RingLevels levels;
@@ -83,13 +83,14 @@ RingLevels halo_of(std::span<const RingLevels> stations) {
   return halo;
 }
 
-Image without_halo(const Image& residual, const RingLevels& station, const RingLevels& halo, Vec2 light_px) {
+Image without_halo(const Image& residual, const Image& photograph, const RingLevels& station, const RingLevels& halo,
+                   Vec2 light_px) {
   Image rest = residual;
   if (halo[0].empty()) return rest;
   const float factor = factor_of(station, halo);
   for (int y = 0; y < rest.height; ++y)
     for (int x = 0; x < rest.width; ++x)
-      for (int c = 0; c < 3 && is_inside(residual, x, y); ++c)
+      for (int c = 0; c < 3 && is_inside(photograph, x, y); ++c)
         rest.at(x, y, c) -= factor * level_at(halo[static_cast<std::size_t>(c)], distance_px(x, y, light_px));
   return rest;
 }

@@ -18,14 +18,15 @@ namespace contrejour::studio {
 // has no level (NaN).
 using RingLevels = std::array<std::vector<float>, 3>;
 
-// residual: a photograph less its fit; 0 in all channels outside the photograph.
-[[nodiscard]] RingLevels ring_levels(const Image& residual, Vec2 light_px);
+// residual: a photograph less its fit. The halo is sought and left out where the photograph is not 0 in all channels,
+// as it is outside its frame.
+[[nodiscard]] RingLevels ring_levels(const Image& residual, const Image& photograph, Vec2 light_px);
 
 // Of three stations at least, else none (empty).
 [[nodiscard]] RingLevels halo_of(std::span<const RingLevels> stations);
 
 // The residual less the halo, as bright as this station has it, within a third.
-[[nodiscard]] Image without_halo(const Image& residual, const RingLevels& station, const RingLevels& halo,
-                                 Vec2 light_px);
+[[nodiscard]] Image without_halo(const Image& residual, const Image& photograph, const RingLevels& station,
+                                 const RingLevels& halo, Vec2 light_px);
 
 }  // namespace contrejour::studio

@@ -10,15 +10,10 @@
 namespace contrejour::studio {
 namespace {
 
-// The photograph less its fit; 0 outside the photograph, where it is black.
-Image residual_of(const Image& captured, const Image& fitted) {
-  Image residual(captured.width, captured.height);
-  for (std::size_t k = 0; k + 2 < captured.pixels.size(); k += 3) {
-    const float* p = &captured.pixels[k];
-    if (p[0] == 0 && p[1] == 0 && p[2] == 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) residual.pixels[k + c] = p[c] - fitted.pixels[k + c];
-  }
-  return residual;
+Image difference_of(const Image& a, const Image& b) {
+  Image difference = a;
+  for (std::size_t k = 0; k < difference.pixels.size(); ++k) difference.pixels[k] = a.pixels[k] - b.pixels[k];
+  return difference;
 }
 
 Image size_of(Image difference) {
@@ -72,8 +67,8 @@ Vec2 MeasuredPhotographs::light_px(std::size_t k) const {
 
 void MeasuredPhotographs::compare(std::size_t k, const Image& captured, const Image& fitted) {
   Station& station = stations_[k];
-  station.residual = residual_of(captured, fitted);
-  station.rings = ring_levels(*station.residual, light_px(k));
+  station.residual = difference_of(captured, fitted);
+  station.rings = ring_levels(*station.residual, captured, light_px(k));
 }
 
 Result<void> MeasuredPhotographs::show(const MeasuredOrder& order, double stops, MeasuredAnswer& answer,
@@ -86,6 +81,7 @@ Result<void> MeasuredPhotographs::show(const MeasuredOrder& order, double stops,
   const auto fitted = fit(k, *answer.flare, context);
   if (!fitted) return tl::unexpected(fitted.error());
   compare(k, *captured, *fitted);
+  shown_ = *captured;
   answer.sweep = order.sweep;
   answer.angle_deg = sweep_->angle_deg(k);
   answer.photograph = MeasuredPhotograph{.station = k,
@@ -118,7 +114,7 @@ void MeasuredPhotographs::draw_residual(MeasuredAnswer& answer) const {
   for (const Station& station : stations_)
     if (station.residual) rings.push_back(station.rings);
   const std::size_t k = answer.photograph->station;
-  const Image rest = without_halo(*stations_[k].residual, stations_[k].rings, halo_of(rings), light_px(k));
+  const Image rest = without_halo(*stations_[k].residual, shown_, stations_[k].rings, halo_of(rings), light_px(k));
   answer.photograph->residual = codes_of(size_of(rest), stops_);
 }
 

@@ -46,6 +46,7 @@ class MeasuredPhotographs {
   std::string flare_file_;  // in whose frame the pictures are
   double half_width_ = 0, stops_ = 0;
   std::vector<Station> stations_;
+  Image shown_;  // the photograph of the last answer
 };
 
 }  // namespace contrejour::studio
