@@ -86,8 +86,19 @@ Vec2 light_at(double s, double focal_px) {
           0.5 * kSweepHeight - focal_px * s * std::sin(kSweepRoll_rad)};
 }
 
+// Scattered light about the light's image, relative to the light: near it a hundred times as bright as the disc.
+float halo_at(double r_px) { return static_cast<float>(7e-4 / (1 + r_px * r_px / 200)); }
+
+void add_halo(Image& rate, Vec2 light_px) {
+  for (int y = 0; y < rate.height; ++y)
+    for (int x = 0; x < rate.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        rate.at(x, y, c) +=
+            static_cast<float>(kLightRate) * halo_at(std::hypot(x + 0.5 - light_px.x, y + 0.5 - light_px.y));
+}
+
 // The disc's photographs by a camera that is rolled; that of the last station has a spot that the flare has not.
-void write_sweep(const std::filesystem::path& folder) {
+void write_sweep(const std::filesystem::path& folder, bool has_halo = false) {
   const double focal_px = 0.5 * kSweepWidth / 0.3;
   const TangentFrame frame{kSweepWidth, kSweepHeight, focal_px, {0.5 * kSweepWidth, 0.5 * kSweepHeight}};
   for (int k = 0; k < 7; ++k) {
@@ -99,6 +110,7 @@ void write_sweep(const std::filesystem::path& folder) {
     if (k == 6)
       for (int y = 20; y < 30; ++y)
         for (int x = 20; x < 30; ++x) rate->at(x, y, 1) = 1.0F;
+    if (has_halo) add_halo(*rate, light_at(s, focal_px));
     MergedStation station{k + 1, angle_deg, {std::move(*rate), {}, {}, {}, {}}, {}};
     station.image.variance = station.image.valid = Image(kSweepWidth, kSweepHeight);
     station.direct = DirectFlux{light_at(s, focal_px), {kLightRate, kLightRate, kLightRate}};
@@ -152,6 +164,31 @@ TEST_CASE("photographs of a rolled camera lie on their fit, and what it has not 
   CHECK_FALSE(none.photograph);
   CHECK(none.error.find("measure merge") != std::string::npos);
   CHECK(none.flare);
+}
+
+TEST_CASE("the halo about the light is left out of the residual, what the fit lacks is not") {
+  const test::ScratchFolder folder;
+  std::ofstream(folder / "disc.flare.toml") << write_flare(mirrored_disc());
+  write_sweep(folder / ".", true);
+  MeasuredJob job(measured_work(), {});
+  const std::string file = (folder / "disc.flare.toml").string(), sweep = (folder / ".").string();
+  const auto bright = [](const std::vector<std::uint32_t>& codes, int x_end, int y_end) {
+    int count = 0;
+    for (int y = 0; y < y_end; ++y)
+      for (int x = 0; x < x_end; ++x)
+        count += (codes[static_cast<std::size_t>(y * kMeasuredWidth + x)] >> 8U & 255U) > 128 ? 1 : 0;
+    return count;
+  };
+  const MeasuredAnswer middle = answer_to(job, {file, 3, sweep});
+  REQUIRE_MESSAGE(middle.photograph, middle.error);
+  // What is left lies next to the light, where half a per cent of the halo is as bright as a part of the disc.
+  CHECK(bright(middle.photograph->captured, kMeasuredWidth, kMeasuredHeight) > 20000);
+  CHECK(bright(middle.photograph->residual, kMeasuredWidth, kMeasuredHeight) < 3000);
+  const MeasuredAnswer last = answer_to(job, {file, 9, sweep});
+  REQUIRE(last.photograph);
+  CHECK(bright(middle.photograph->captured, 45, 45) > 1000);
+  CHECK(bright(middle.photograph->residual, 45, 45) < 40);  // pixels that the photograph's edge cuts
+  CHECK(bright(last.photograph->residual, 45, 45) > 80);    // and the spot
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class Compare(PanelTest):
                  ["key", "h"], ["frames", 2], ["drag", "viewport/light/1", 90, 40, 5], ["wait"], ["key", "h"], *hide, ["screenshot", "after.png"], ["key", "w"], ["wait"],
                  *hide, ["screenshot", "wiped.png"], ["state", "wiped.json"], ["drag", "viewport/wipe", -60, 0, 4], ["wait"], ["state", "dragged.json"],
                  ["click", "compare/mode/2"], ["wait"], ["state", "difference.json"], ["click", "compare/snapshot/1/restore"], ["wait"]]
-        state = self.state_after(lines, window="1000x720")
+        state = self.state_after(lines, window="720x540")
         wiped, dragged = self.state("wiped.json"), self.state("dragged.json")
         x0, y0, x1, y1 = (int(round(v)) for v in self.widget(wiped, "viewport/picture")["rect"])
         middle, gap = (x0 + x1) // 2, 6

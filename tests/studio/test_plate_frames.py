@@ -2,7 +2,10 @@
 """Numbered plates, OpenColorIO's views and photographs of a measured flare with real clicks; frames against `contrejour apply`, pixels by hand."""
 import json
 import math
+import os
+import pathlib
 import shlex
+import shutil
 import struct
 import subprocess
 import zlib
@@ -134,6 +137,8 @@ class Photographs(StudioTest):
         self.assertEqual(self.widget(state, "measured/read")["value"], "5 of 5 photographs of merged")
         self.assertEqual(self.widget(state, "measured/captured")["value"], "photograph 5")
         self.assertAlmostEqual(float(self.widget(state, "measured/photographs")["value"]), 12, delta=0.1)
+        if os.environ.get("CONTREJOUR_WRITE_PICTURES"):
+            shutil.copy(self.folder / "photographs.png", pathlib.Path(__file__).resolve().parents[2] / "docs" / "pictures" / "studio")
         picture = self.picture("photographs.png")
         # Where the disc is twice as wide in the fit as in the photograph, its rim is left.
         def lit(name):

@@ -72,6 +72,45 @@ TEST_CASE("a view that the configuration has not is a preview, with the reason")
   CHECK(missing.error().position.file == "/no/such/config.ocio");
 }
 
+// Colours of all brightnesses from 2^-10 to 2^12: greys, mild ones and the purest of the space.
+Image colours_of_all_kinds() {
+  Image image(64, 96);
+  std::uint32_t random = 7;
+  const auto next = [&] { return static_cast<float>((random = random * 1664525U + 1013904223U) >> 8U) / 16777216.0F; };
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float level = std::exp2(22 * next() - 10), purity = static_cast<float>(y / 32) * 0.5F;
+      for (int c = 0; c < 3; ++c)
+        image.pixels[static_cast<std::size_t>(3 * (y * image.width + x) + c)] =
+            level * (1 - purity + purity * next() * next());
+    }
+  return image;
+}
+
+TEST_CASE("the table of a view has its codes to 3 of 255") {
+  if (!has_module(colour_displays(""))) return;
+  const Image image = colours_of_all_kinds();
+  for (const char* name : {"ACES SDR video", "Un-tone-mapped"})
+    for (const ColourSpace space : {ColourSpace::Rec709, ColourSpace::AcesCg}) {
+      CAPTURE(name);
+      const auto view = ColourView::open("", {"sRGB", name});
+      REQUIRE(view);
+      std::vector<float> exact(image.pixels.begin(), image.pixels.end());
+      REQUIRE(view->apply(exact, space));
+      ViewPainter painter;
+      const auto shown = painter.codes(image, space, 0, ViewTransform::Colour, {"sRGB", name});
+      double largest = 0, sum = 0;
+      for (std::size_t k = 0; k < exact.size(); ++k) {
+        const double code = 255 * std::fmin(std::fmax(static_cast<double>(exact[k]), 0.0), 1.0);
+        const double apart = std::abs((shown.rgba[k / 3] >> 8U * (k % 3) & 255U) - code);
+        largest = std::fmax(largest, apart);
+        sum += apart;
+      }
+      CHECK(largest < 3);
+      CHECK(sum / static_cast<double>(exact.size()) < 0.2);  // rounding alone is 0.25 where no code is clipped
+    }
+}
+
 TEST_CASE("pictures in ACEScg are shown in the window's primaries") {
   ViewPainter painter;
   const auto shown = painter.codes(one_pixel(0.2F, 0.2F, 0.2F), ColourSpace::AcesCg, 0, ViewTransform::Clipped, {});

@@ -139,6 +139,23 @@ class Panels(StudioTest):
                     self.assertEqual(fixed, [])
 
 
+class Redrawing(StudioTest):
+    def test_a_frame_drawn_in_parts_is_the_frame_drawn_whole(self):
+        changes = [[["drag", "viewport/light/1", 60, 30, 3], ["wait"]], [["wheel", "viewport/picture", 3]], [["move", "toolbar/export"], ["frames", 2]],
+                   [["key", "f4"], ["frames", 3]], [["key", "f1"], ["frames", 3]], [["key", "escape"], ["frames", 2]], [["key", "tab"], ["frames", 3]],
+                   [["random", 5, 30], ["key", "escape"], ["key", "escape"], ["wait"]]]
+        lines = [["wait"], ["clear-pace"], ["frames", 20], ["state", "idle.json"]]
+        for k, change in enumerate(changes):
+            lines += [["clear-pace"], *change, ["frames", 3], ["state", f"{k}.json"], ["screenshot", f"{k}.png"], ["redraw"], ["screenshot", f"{k}-whole.png"]]
+        self.run_studio(lines, window="640x480")
+        self.assertEqual(self.state("idle.json")["pace"]["drawn_part"], 0)
+        self.assertLess(self.state("2.json")["pace"]["drawn_part"], 0.2)
+        for k in range(len(changes)):
+            with self.subTest(change=changes[k]):
+                self.assertGreater(self.state(f"{k}.json")["pace"]["drawn_part"], 0)
+                self.assertEqual((self.folder / f"{k}.png").read_bytes(), (self.folder / f"{k}-whole.png").read_bytes())
+
+
 class RandomInput(StudioTest):
     def test_random_input_neither_ends_the_program_nor_leaves_it_busy(self):
         state = self.state_after([["random", 3, 80], ["key", "escape"], ["key", "escape"]])

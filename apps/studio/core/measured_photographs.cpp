@@ -12,8 +12,12 @@ namespace {
 
 Image difference_of(const Image& a, const Image& b) {
   Image difference = a;
-  for (std::size_t k = 0; k < difference.pixels.size(); ++k)
-    difference.pixels[k] = std::fabs(a.pixels[k] - b.pixels[k]);
+  for (std::size_t k = 0; k < difference.pixels.size(); ++k) difference.pixels[k] = a.pixels[k] - b.pixels[k];
+  return difference;
+}
+
+Image size_of(Image difference) {
+  for (float& value : difference.pixels) value = std::fabs(value);
   return difference;
 }
 
@@ -50,6 +54,23 @@ Result<Image> MeasuredPhotographs::read(std::size_t k) {
   return picture;
 }
 
+Result<Image> MeasuredPhotographs::fit(std::size_t k, const MeasuredFlare& flare, const Context& context) const {
+  const FlareLight light = sweep_->light(k);
+  return render_measured(flare, {&light, 1}, measured_frame(half_width_, kMeasuredWidth, kMeasuredHeight), context);
+}
+
+Vec2 MeasuredPhotographs::light_px(std::size_t k) const {
+  const TangentFrame frame = measured_frame(half_width_, kMeasuredWidth, kMeasuredHeight);
+  const Vec2 at = sweep_->light(k).position;
+  return {frame.centre_px.x + frame.focal_length_px * at.x, frame.centre_px.y - frame.focal_length_px * at.y};
+}
+
+void MeasuredPhotographs::compare(std::size_t k, const Image& captured, const Image& fitted) {
+  Station& station = stations_[k];
+  station.residual = difference_of(captured, fitted);
+  station.rings = ring_levels(*station.residual, captured, light_px(k));
+}
+
 Result<void> MeasuredPhotographs::show(const MeasuredOrder& order, double stops, MeasuredAnswer& answer,
                                        const Context& context) {
   if (auto ok = open(order, answer); !ok) return ok;
@@ -57,30 +78,44 @@ Result<void> MeasuredPhotographs::show(const MeasuredOrder& order, double stops,
   const std::size_t k = sweep_->nearest(order.angle_deg);
   const auto captured = read(k);
   if (!captured) return tl::unexpected(captured.error());
-  const FlareLight light = sweep_->light(k);
-  const auto fitted = render_measured(*answer.flare, {&light, 1},
-                                      measured_frame(half_width_, kMeasuredWidth, kMeasuredHeight), context);
+  const auto fitted = fit(k, *answer.flare, context);
   if (!fitted) return tl::unexpected(fitted.error());
+  compare(k, *captured, *fitted);
+  shown_ = *captured;
   answer.sweep = order.sweep;
   answer.angle_deg = sweep_->angle_deg(k);
   answer.photograph = MeasuredPhotograph{.station = k,
                                          .count = sweep_->count(),
                                          .captured = codes_of(*captured, stops),
-                                         .fitted = codes_of(*fitted, stops),
-                                         .residual = codes_of(difference_of(*captured, *fitted), stops)};
+                                         .fitted = codes_of(*fitted, stops)};
+  draw_residual(answer);
   draw_kymograph(answer);
   return {};
 }
 
-bool MeasuredPhotographs::read_next(MeasuredAnswer& answer) {
+bool MeasuredPhotographs::read_next(MeasuredAnswer& answer, const Context& context) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < stations_.size() && count < kReadAtOnce; ++k) {
     if (stations_[k].is_read) continue;
-    static_cast<void>(read(k));  // one that cannot be read leaves its rows black
+    const auto captured = read(k);  // one that cannot be read leaves its rows black
     ++count;
+    if (!captured || !stations_[k].picture) continue;
+    if (const auto fitted = fit(k, *answer.flare, context)) compare(k, *captured, *fitted);
   }
-  if (count > 0) draw_kymograph(answer);
-  return count > 0;
+  if (count == 0) return false;
+  draw_residual(answer);
+  draw_kymograph(answer);
+  return true;
+}
+
+// The halo is better known with each station that is read.
+void MeasuredPhotographs::draw_residual(MeasuredAnswer& answer) const {
+  std::vector<RingLevels> rings;
+  for (const Station& station : stations_)
+    if (station.residual) rings.push_back(station.rings);
+  const std::size_t k = answer.photograph->station;
+  const Image rest = without_halo(*stations_[k].residual, shown_, stations_[k].rings, halo_of(rings), light_px(k));
+  answer.photograph->residual = codes_of(size_of(rest), stops_);
 }
 
 // Each row is that of the station nearest to its angle, as far as the sweep reaches.

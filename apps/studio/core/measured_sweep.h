@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The photographs that a measured flare was learned from, as its panel shows them beside the fit: merged stations
-// (merged_sweep.h) in the fit's frame, relative to the light. Their halo and starburst are no part of the fit, and stay
-// in the residual. Units: as measured_flare.h. Errors: those of the files; fewer than five direct images of the light.
+// (merged_sweep.h) in the fit's frame, relative to the light. Their halo (measured_halo.h) and starburst are no part of
+// the fit. Units: as measured_flare.h. Errors: those of the files; fewer than five direct images of the light.
 // Thread-safety: a plain class, one thread at a time; the rest is pure.
 #pragma once
 

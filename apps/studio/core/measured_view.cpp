@@ -69,7 +69,7 @@ class MeasuredWorker {
     if (control.is_outdated()) return;
     if (!ok) answer.error = ok.error().to_string();
     control.publish(answer);
-    while (ok && !control.is_outdated() && photographs_.read_next(answer)) control.publish(answer);
+    while (ok && !control.is_outdated() && photographs_.read_next(answer, context)) control.publish(answer);
   }
 
   // The kymograph is that of the file, whatever the angle.

@@ -83,10 +83,6 @@ Image in_rec709(Image image) {
   return image;
 }
 
-std::uint32_t code_of_display(float value) {
-  return value > 0 ? static_cast<std::uint32_t>(std::lround(255 * std::fmin(value, 1.0F))) : 0;
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> displayed(const Image& rgb, double stops, ViewTransform transform) {
@@ -104,23 +100,20 @@ std::vector<std::uint32_t> displayed(const Image& rgb, double stops, ViewTransfo
   return codes;
 }
 
-Result<std::vector<std::uint32_t>> ViewPainter::by_colour_view(Image image, ColourSpace space, double stops,
+Result<std::vector<std::uint32_t>> ViewPainter::by_colour_view(const Image& image, ColourSpace space, double stops,
                                                                const ColourViewName& name) {
-  if (!colour_view_ || name != opened_) {
+  if (!baked_ || name != baked_name_ || space != baked_space_) {
     auto view = ColourView::open(colour_config({}), name);
     if (!view) return tl::unexpected(view.error());
-    colour_view_ = std::move(*view);
-    opened_ = name;
+    auto baked = BakedView::bake(std::move(*view), space);
+    if (!baked) return tl::unexpected(baked.error());
+    baked_ = std::move(*baked);
+    baked_name_ = name;
+    baked_space_ = space;
   }
-  const auto gain = static_cast<float>(std::exp2(stops));
-  for (float& value : image.pixels) value *= gain;
-  if (auto ok = colour_view_->apply(image.pixels, space); !ok) return tl::unexpected(ok.error());
   std::vector<std::uint32_t> codes(image.pixels.size() / 3);
-  const float* p = image.pixels.data();
-  for (std::uint32_t& code : codes) {
-    code = packed(code_of_display(p[0]), code_of_display(p[1]), code_of_display(p[2]));
-    p += 3;
-  }
+  if (auto ok = baked_->codes(image.pixels, static_cast<float>(std::exp2(stops)), codes); !ok)
+    return tl::unexpected(ok.error());
   return codes;
 }
 

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/colour_view.h"
 #include "contrejour/image.h"
+#include "studio/core/baked_view.h"
 
 namespace contrejour::studio {
 
@@ -24,7 +25,8 @@ enum class ViewTransform {
 // ViewPainter's, and shown as a preview here.
 [[nodiscard]] std::vector<std::uint32_t> displayed(const Image& rgb, double stops, ViewTransform transform);
 
-// All of them, of pictures in any space. Keeps the view that it has opened last.
+// All of them, of pictures in any space; views of OpenColorIO by a table (baked_view.h), which takes a moment for each
+// new view or space. Keeps the last one.
 class ViewPainter {
  public:
   struct Codes {
@@ -35,11 +37,12 @@ class ViewPainter {
                             const ColourViewName& colour);
 
  private:
-  [[nodiscard]] Result<std::vector<std::uint32_t>> by_colour_view(Image image, ColourSpace space, double stops,
+  [[nodiscard]] Result<std::vector<std::uint32_t>> by_colour_view(const Image& image, ColourSpace space, double stops,
                                                                   const ColourViewName& name);
 
-  std::optional<ColourView> colour_view_;
-  ColourViewName opened_;
+  std::optional<BakedView> baked_;
+  ColourViewName baked_name_;
+  ColourSpace baked_space_ = ColourSpace::Rec709;
 };
 
 }  // namespace contrejour::studio

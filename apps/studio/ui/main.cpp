@@ -51,7 +51,7 @@ std::string title_of(const Studio& studio) {
 
 // One frame from input to the screen; its time without the wait for input.
 Result<void> run_frame(Window& window, Interface& interface, std::optional<Script>& script) {
-  const double start = glfwGetTime();
+  const double start = glfwGetTime(), processor_start = processor_time_s();
   if (script)
     if (auto ok = script->step(window, interface); !ok) return ok;
   const std::uint64_t revision = interface.studio().revision(), shown = interface.pictures_drawn();
@@ -62,7 +62,7 @@ Result<void> run_frame(Window& window, Interface& interface, std::optional<Scrip
     if (script) saved = script->after_frame(window);
   });
   const double end = glfwGetTime();
-  interface.pace().frame(start, end);
+  interface.pace().frame(start, end, processor_time_s() - processor_start, window.drawn_part());
   if (interface.studio().revision() != revision) interface.pace().changed(interface.studio().revision(), start);
   if (interface.pictures_drawn() != shown) interface.pace().shown(interface.studio().shown().picture.revision, end);
   return saved;

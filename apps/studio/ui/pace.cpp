@@ -2,6 +2,8 @@
 #include "studio/ui/pace.h"
 
 #include <algorithm>
+#include <ctime>
+#include <numeric>
 
 namespace contrejour::studio {
 namespace {
@@ -16,8 +18,11 @@ double quantile(std::vector<double> values, double part) {
 
 }  // namespace
 
-void Pace::frame(double from_s, double to_s) {
-  if (frames_ms_.size() < kMostKept) frames_ms_.push_back(1000 * (to_s - from_s));
+void Pace::frame(double from_s, double to_s, double processor_s, double drawn_part) {
+  if (frames_ms_.size() >= kMostKept) return;
+  frames_ms_.push_back(1000 * (to_s - from_s));
+  processor_ms_.push_back(1000 * processor_s);
+  drawn_parts_.push_back(drawn_part);
 }
 
 void Pace::changed(std::uint64_t revision, double input_s) {
@@ -38,6 +43,15 @@ void Pace::shown(std::uint64_t revision, double now_s) {
   latencies_ms_.push_back(1000 * (now_s - input_s));
 }
 
+double processor_time_s() {
+#if defined(CLOCK_THREAD_CPUTIME_ID)
+  timespec time{};
+  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0)
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+#endif
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
 void Pace::clear() { *this = Pace(); }
 
 Pace::Summary Pace::summary() const {
@@ -47,6 +61,10 @@ Pace::Summary Pace::summary() const {
   s.frame_p50_ms = quantile(frames_ms_, 0.5);
   s.frame_p99_ms = quantile(frames_ms_, 0.99);
   s.frame_max_ms = quantile(frames_ms_, 1.0);
+  s.processor_p50_ms = quantile(processor_ms_, 0.5);
+  s.processor_p99_ms = quantile(processor_ms_, 0.99);
+  if (s.frames > 0)
+    s.drawn_part = std::accumulate(drawn_parts_.begin(), drawn_parts_.end(), 0.0) / static_cast<double>(s.frames);
   s.latency_p50_ms = quantile(latencies_ms_, 0.5);
   s.latency_p99_ms = quantile(latencies_ms_, 0.99);
   if (s.pictures > 1 && last_picture_s_ > first_picture_s_)

@@ -224,7 +224,12 @@ Result<void> ScriptReader::read(const ScriptLine& line) {
       host.interface.pace().clear();
       return true;
     });
-  else if (what == "close")
+  else if (what == "redraw") {
+    add([](Host& host) -> Result<bool> {
+      host.window.redraw();
+      return true;
+    });
+  } else if (what == "close")
     add([](Host& host) -> Result<bool> {
       host.interface.ask_to_quit();
       return true;
@@ -242,6 +247,7 @@ Result<void> ScriptReader::read(const ScriptLine& line) {
   else if (what == "screenshot") {
     add([id](Host& host) -> Result<bool> {
       host.script.screenshot_ = id;
+      host.window.prepare_reading();
       return true;
     });
     frames(1);

@@ -33,10 +33,13 @@ void Texture::set(int width, int height, std::span<const std::uint32_t> rgba) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   width_ = width;
   height_ = height;
+  ++changes_;
 }
 
 void Texture::set_smooth(bool smooth) {
-  if (name_ == 0) return;
+  if (name_ == 0 || smooth == is_smooth_) return;
+  is_smooth_ = smooth;
+  ++changes_;
   glBindTexture(GL_TEXTURE_2D, name_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, smooth ? GL_LINEAR : GL_NEAREST);
 }

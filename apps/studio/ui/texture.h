@@ -24,11 +24,17 @@ class Texture {
   // As a callback of a draw list: its clip rectangle becomes the canvas, by far sooner than a rectangle that is drawn
   // would, and what follows is not blended with what is there.
   static void clear_canvas(const ImDrawList* list, const ImDrawCmd* command);
-  [[nodiscard]] ImTextureID id() const { return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name_)); }
+  // OpenGL's name in the lower half, which is all that Dear ImGui's renderer takes of it; above it a count of changes,
+  // by which ChangedTiles knows that the pixels are others.
+  [[nodiscard]] ImTextureID id() const {
+    static_assert(sizeof(ImTextureID) == sizeof(std::uint64_t));
+    return reinterpret_cast<ImTextureID>(static_cast<std::uint64_t>(changes_) << 32U | name_);
+  }
   [[nodiscard]] bool is_empty() const { return name_ == 0; }
 
  private:
-  unsigned int name_ = 0;
+  std::uint32_t name_ = 0, changes_ = 0;
+  bool is_smooth_ = true;
   int width_ = 0, height_ = 0;
 };
 

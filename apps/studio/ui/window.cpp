@@ -2,7 +2,9 @@
 #include "studio/ui/window.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -20,6 +22,15 @@ std::string last_glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text != nullptr ? text : "unknown reason";
+}
+
+// A swap of buffers leaves the pixels to draw on undefined. Mesa without a graphics card copies them to the window,
+// and keeps them (drisw_glx.c); with rotating buffers, whose age GLX tells, it does not. A graphics card draws whole
+// frames in no time.
+bool swap_copies() {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const bool is_software = renderer != nullptr && std::string_view(renderer).find("llvmpipe") != std::string_view::npos;
+  return is_software && glfwExtensionSupported("GLX_EXT_buffer_age") == GLFW_FALSE;
 }
 
 Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -66,7 +77,9 @@ Result<std::unique_ptr<Window>> Window::open(const WindowSettings& settings) {
   return std::unique_ptr<Window>(new Window(window));
 }
 
-Window::Window(GLFWwindow* window) : window_(window), last_frame_s_(glfwGetTime()) { connect(); }
+Window::Window(GLFWwindow* window) : window_(window), keeps_pixels_(swap_copies()), last_frame_s_(glfwGetTime()) {
+  connect();
+}
 
 Window::~Window() {
   ImGui_ImplOpenGL3_Shutdown();
@@ -89,6 +102,7 @@ void Window::connect() {
     if (action != GLFW_REPEAT) of(w).input_.push(KeyChanged{key, action == GLFW_PRESS});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int code) { of(w).input_.push(CharacterTyped{code}); });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).redraw(); });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
     if (count > 0) of(w).dropped_ = files[0];
   });
@@ -120,17 +134,38 @@ void Window::begin_frame() {
   ImGui::NewFrame();
 }
 
-void Window::end_frame(const std::function<void()>& before_swap) {
-  ImGui::Render();
-  const ImVec4 back = ImGui::GetStyleColorVec4(ImGuiCol_ChildBg);
+// False: nothing has changed.
+bool Window::draw_changes() {
+  ImDrawData& frame = *ImGui::GetDrawData();
   int pixels_across = 0, pixels_down = 0;
   glfwGetFramebufferSize(window_, &pixels_across, &pixels_down);
-  glViewport(0, 0, pixels_across, pixels_down);
+  const PixelRect whole{0, 0, pixels_across, pixels_down};
+  std::vector<PixelRect> changed = tiles_.find(frame);
+  drawn_part_ = 0;
+  if (changed.empty()) return false;
+  if (!keeps_pixels_) changed = {whole};
+  if (changed != std::vector{whole}) reduce_to(changed, frame);
+  const ImVec4 back = ImGui::GetStyleColorVec4(ImGuiCol_ChildBg);
   glClearColor(back.x, back.y, back.z, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& r : changed) {
+    glScissor(r.x0, pixels_down - r.y1, r.x1 - r.x0, r.y1 - r.y0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    drawn_part_ += static_cast<double>(r.area()) / static_cast<double>(whole.area());
+  }
+  ImGui_ImplOpenGL3_RenderDrawData(&frame);
+  return true;
+}
+
+void Window::end_frame(const std::function<void()>& before_swap) {
+  ImGui::Render();
+  const bool shows = draw_changes();
   if (before_swap) before_swap();
-  glfwSwapBuffers(window_);
+  if (shows) glfwSwapBuffers(window_);
+}
+
+void Window::prepare_reading() {
+  if (!keeps_pixels_) redraw();
 }
 
 void Window::wake() { glfwPostEmptyEvent(); }

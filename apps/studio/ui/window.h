@@ -8,6 +8,7 @@
 #include <string>
 
 #include "contrejour/result.h"
+#include "studio/ui/changed_tiles.h"
 #include "studio/ui/input.h"
 
 struct GLFWwindow;
@@ -33,8 +34,14 @@ class Window {
   // Waits for the next event, for so long at most, even if there is input in the queue.
   void rest(double seconds);
   void begin_frame();
-  // before_swap: once the frame is drawn, before it is on the screen.
+  // Shows the frame, if anything has changed since the one before. before_swap: once it is drawn, before it is on the
+  // screen.
   void end_frame(const std::function<void()>& before_swap = {});
+  // The next frame is drawn whole, whatever has changed.
+  void redraw() { tiles_.forget(); }
+  [[nodiscard]] double drawn_part() const { return drawn_part_; }  // of the window's pixels, by the last frame
+  // The next frame's pixels will be read.
+  void prepare_reading();
   static void wake();
 
   [[nodiscard]] bool wants_to_close() const;
@@ -49,11 +56,14 @@ class Window {
  private:
   explicit Window(GLFWwindow* window);
   void connect();
+  [[nodiscard]] bool draw_changes();
 
   GLFWwindow* window_;
   InputQueue input_;
+  ChangedTiles tiles_;
   std::string dropped_, title_;
-  double last_frame_s_ = 0;
+  bool keeps_pixels_ = false;  // a frame finds those of the frame before
+  double last_frame_s_ = 0, drawn_part_ = 0;
   int width_ = 0, height_ = 0;
 };
 
