@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,31 +15,47 @@
 namespace contrejour {
 
 namespace detail {
-[[nodiscard]] CONTREJOUR_API void* allocate_pixels(std::size_t bytes);
-CONTREJOUR_API void free_pixels(void* pixels) noexcept;
+class PixelPool;  // the memory that a renderer uses again for its next frames
+[[nodiscard]] CONTREJOUR_API void* allocate_pixels(std::size_t bytes, const std::shared_ptr<PixelPool>& pool);
+CONTREJOUR_API void free_pixels(void* pixels, const std::shared_ptr<PixelPool>& pool) noexcept;
 }  // namespace detail
 
 // Allocates pictures in the system's large pages where it has them: a 4K picture takes 25000 small pages, each of which
-// costs a page fault. Elements constructed without a value are not cleared.
+// costs a page fault. Elements constructed without a value are not cleared. The memory of a renderer's pictures goes
+// back to the renderer when they are destroyed, by whichever thread; copies of a picture have memory of their own.
 template <class T>
-struct PixelAllocator {
+class PixelAllocator {
+ public:
   using value_type = T;
+  // Memory is freed by the allocator that it came from, so this moves with it.
+  using propagate_on_container_move_assignment = std::true_type;
+  using propagate_on_container_swap = std::true_type;
 
   PixelAllocator() = default;
+  explicit PixelAllocator(std::shared_ptr<detail::PixelPool> pool) : pool_(std::move(pool)) {}
+  PixelAllocator(const PixelAllocator&) = default;  // and no moves: an allocator that was moved from must stay equal
+  PixelAllocator& operator=(const PixelAllocator&) = default;
+  ~PixelAllocator() = default;
   template <class U>
-  explicit PixelAllocator(const PixelAllocator<U>& /*other*/) {}
+  explicit PixelAllocator(const PixelAllocator<U>& other) : pool_(other.pool()) {}
+
+  [[nodiscard]] PixelAllocator select_on_container_copy_construction() const { return {}; }
+  [[nodiscard]] const std::shared_ptr<detail::PixelPool>& pool() const { return pool_; }
 
   [[nodiscard]] T* allocate(std::size_t count) {
     if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(detail::allocate_pixels(count * sizeof(T)));
+    return static_cast<T*>(detail::allocate_pixels(count * sizeof(T), pool_));
   }
-  void deallocate(T* pixels, std::size_t /*count*/) noexcept { detail::free_pixels(pixels); }
+  void deallocate(T* pixels, std::size_t /*count*/) noexcept { detail::free_pixels(pixels, pool_); }
   void construct(T* at) noexcept { ::new (static_cast<void*>(at)) T; }
   template <class... From>
   void construct(T* at, From&&... from) {
     ::new (static_cast<void*>(at)) T(std::forward<From>(from)...);
   }
-  friend bool operator==(const PixelAllocator&, const PixelAllocator&) { return true; }
+  friend bool operator==(const PixelAllocator& a, const PixelAllocator& b) { return a.pool_ == b.pool_; }
+
+ private:
+  std::shared_ptr<detail::PixelPool> pool_;
 };
 
 using Pixels = std::vector<float, PixelAllocator<float>>;

@@ -153,9 +153,7 @@ class FramePainter {
   void draw(PolygonBatch& batch, bool is_last, DrawnImage& to) {
     const bool is_first = mode_ == RasterMode::Write;
     if (is_first && is_last && crop_margin_px_) return draw_illuminated_region(batch, *crop_margin_px_, to);
-    if (is_first)
-      to.image = scene_.plan.layers ? Image::unwritten(frame_.width, frame_.height)
-                                    : unwritten_image(cache_, frame_.width, frame_.height);
+    if (is_first) to.image = unwritten_image(cache_, frame_.width, frame_.height);
     batch.draw(mode_, context_, {to.image});
     mode_ = RasterMode::Add;
   }
@@ -167,7 +165,7 @@ class FramePainter {
     to.top = std::max(lit.y0 - margin_px, 0);
     const int right = std::min(lit.x1 + margin_px, frame_.width);
     const int bottom = std::min(lit.y1 + margin_px, frame_.height);
-    to.image = Image::unwritten(right - to.left, bottom - to.top);
+    to.image = unwritten_image(cache_, right - to.left, bottom - to.top);
     all.draw(mode_, context_, {to.image, to.left, to.top});
   }
 

@@ -122,7 +122,7 @@ std::optional<CurvedBox> GhostTessellator::curved_about(const FirstRays& rays, c
 
 void GhostTessellator::tessellate(const FirstRays& rays, bool with_mirror_image, const ErrorBudget& budget,
                                   PolygonList& out) {
-  const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm);
+  const std::vector<Band> bands = bands_for(rays, tracers_.passes(), samples_, frame_.pixel_pitch_mm, budget.pieces);
   BandPatterns patterns;
   std::vector<std::shared_ptr<const stop_patterns::BandDirt>> dirt;
   for (const Band& band : bands) {

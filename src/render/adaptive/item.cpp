@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -145,6 +146,13 @@ TessellatedItem tessellate(const Scene& scene, const Item& item, Quality quality
   return tessellated;
 }
 
+// Counts the pieces of each item's light whose ghosts are drawn together.
+void count_pieces(std::vector<Item>& items) {
+  std::map<std::pair<Ghost, std::size_t>, std::size_t> pieces;
+  for (const Item& item : items) ++pieces[{item.ghost, item.light->index}];
+  for (Item& item : items) item.pieces = pieces.at({item.ghost, item.light->index});
+}
+
 // The level and the area of a list of polygons, in pixels of the whole frame.
 LevelEstimate level_of(const PolygonList& list, int scale) {
   const double pixels = scale * scale;
@@ -185,8 +193,10 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
                      &lights[k],
                      windows[k].of(has_axial_symmetry(scene.lens, ghost)),
                      scene.plan.layer_of(g, k),
+                     1,
                      {}});
   });
+  count_pieces(items);
   std::vector<Work> done(items.size());
   const std::vector<GhostPupil>& known = scene.plan.pupils;
   parallel_for(items.size(), context,
@@ -197,7 +207,8 @@ std::vector<Item> find_items(const Scene& scene, const Context& context, Work& w
 
 TessellatedItem tessellate_item(const Scene& scene, const Item& item, const ItemEstimate& estimate, const Frame& frame,
                                 const ErrorBudget& budget, Pool<BoxCells>& scratch_pool) {
-  const ErrorBudget of_item = budget_of(estimate, item.patterns != nullptr, item.is_negligible, budget);
+  ErrorBudget of_item = budget_of(estimate, item.patterns != nullptr, item.is_negligible, budget);
+  of_item.pieces = item.pieces;
   return tessellate(scene, item, item.is_negligible ? Quality::Low : Quality::Full, frame, of_item, scratch_pool);
 }
 

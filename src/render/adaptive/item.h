@@ -34,6 +34,7 @@ struct Item {
   const PlannedLight* light = nullptr;
   EntranceWindow window;  // of the light
   std::size_t layer = 0;  // of the plan's
+  std::size_t pieces = 1;  // of the light, with an item for each
   std::vector<Rectangle> boxes;  // in the light's meridional frame; empty: no light gets through
   std::shared_ptr<const GhostPatterns> patterns = nullptr;  // null: the iris is sharp
   // Transmittance of dirt: one a pass, or one for all; empty: no shadows are drawn, and

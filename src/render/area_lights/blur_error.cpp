@@ -71,12 +71,11 @@ double pixel_error(const BlurredGhost& g, int level) {
 
 // The centroid of what pixels hold of a spot is off by up to half a pixel, and less by the factor by which the spot's
 // size dampens a wave as long as a pixel: exp(-2 pi^2 s^2) for a Gaussian spot of standard deviation s, half the
-// radius.
+// radius. A line is off across its short axis.
 double spot_error(const BlurredGhost& g, int level) {
-  const double width = std::exp2(level), s = 0.5 * g.size_px.y / width;
+  const double width = std::exp2(level), s = 0.5 * g.size_px.x / width;
   const double displacement_px = width * std::exp(-2.0 * std::numbers::pi * std::numbers::pi * s * s);
-  const double outline_px = std::numbers::pi * (g.blur_px.x + g.blur_px.y);
-  return outline_px * misfit_error(g.level, 0.5 * width, displacement_px);
+  return outline_px(g) * misfit_error(g.level, 0.5 * width, displacement_px);
 }
 
 int spot_level(const BlurredGhost& g, int coarsest, double allowed_squares) {

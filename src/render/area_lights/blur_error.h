@@ -31,8 +31,9 @@ struct BlurredGhost {
 // `displacement_px`.
 [[nodiscard]] double misfit_error(double height, double edge_width_px, double displacement_px);
 
-// The error of a ghost that is smaller than a pixel, for pixels 2^level times as wide: its place in the pixel is lost.
-// It is the largest, so that it also bounds the step as the ghost moves from pixel to pixel. Negligible for others.
+// The error of a ghost that is smaller than a pixel, or a line thinner than one, for pixels 2^level times as wide: its
+// place in the pixel is lost. It is the largest, so that it also bounds the step as the ghost moves from pixel to
+// pixel. Negligible for others.
 [[nodiscard]] double spot_error(const BlurredGhost& ghost, int level);
 
 // The level up to `coarsest` at which a spot makes no more than that error: a negative one is that of a window of fine

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/planning/frame_memory.h"
 
-#include <utility>
+#include <memory>
+
+#include "image/pixel_pool.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -11,18 +13,25 @@ struct FrameMemory {
     friend bool operator==(const Key&, const Key&) = default;
   };
   explicit FrameMemory(const Key& /*key*/) {}
-  [[nodiscard]] std::size_t memory_bytes() const { return image.pixels.size() * sizeof(float); }
-  Image image;
+  FrameMemory(const FrameMemory&) = delete;
+  FrameMemory& operator=(const FrameMemory&) = delete;
+  ~FrameMemory() { pool->close(); }
+
+  void next_frame() const { pool->next_frame(); }
+  [[nodiscard]] std::size_t memory_bytes() const { return pool->bytes(); }
+
+  std::shared_ptr<detail::PixelPool> pool = std::make_shared<detail::PixelPool>();
 };
 
 }  // namespace
 
 Image unwritten_image(RenderCache& cache, int width, int height) {
-  Image& kept = cache.section<FrameMemory>({})->image;
-  if (kept.width == width && kept.height == height && kept.channels == 3) return std::exchange(kept, {});
-  return Image::unwritten(width, height);
+  Image image;
+  image.width = width;
+  image.height = height;
+  const std::size_t samples = image.index(0, height);
+  image.pixels = Pixels(samples, PixelAllocator<float>(cache.section<FrameMemory>({})->pool));
+  return image;
 }
-
-void keep_memory(RenderCache& cache, Image image) { cache.section<FrameMemory>({})->image = std::move(image); }
 
 }  // namespace contrejour::inline internal

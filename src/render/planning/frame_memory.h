@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recycled image memory: the pictures that a session has written out and does not need any more serve its next frame. A
-// new picture of 25 MB costs some milliseconds, since the system clears its pages first.
-// Thread-safety: from one thread at a time.
+// Memory of a session's pictures and layers, which goes back to the session when they are destroyed and serves its next
+// frames (image/pixel_pool.h).
+// Thread-safety: unwritten_image() from one thread at a time.
 #pragma once
 
 #include "contrejour/image.h"
@@ -11,7 +11,5 @@ namespace contrejour::inline internal {
 
 // An image of three channels with undefined pixels, for a caller that writes them all.
 [[nodiscard]] Image unwritten_image(RenderCache& cache, int width, int height);
-
-void keep_memory(RenderCache& cache, Image image);
 
 }  // namespace contrejour::inline internal

@@ -13,6 +13,7 @@
 #include "contrejour/expert/check_lens.h"
 #include "render/area_lights/area_render.h"
 #include "render/device/kept_device.h"
+#include "render/planning/frame_memory.h"
 #include "render/session/registry.h"
 #include "render/starburst/starburst_pass.h"
 
@@ -94,8 +95,9 @@ Result<void> add_lights_to(LayeredFlare& flare, const LayerMap& map, const Frame
   return {};
 }
 
-Image sum_of(std::span<const FlareLayer> layers, const Frame& frame, const Context& context) {
-  Image sum = Image::unwritten(frame.width, frame.height);
+Image sum_of(std::span<const FlareLayer> layers, const FrameRequest& request, const Context& context) {
+  const Frame& frame = request.settings.frame;
+  Image sum = unwritten_image(request.cache, frame.width, frame.height);
   parallel_for(static_cast<std::size_t>(frame.height), context, [&](std::size_t row) {
     const auto to = sum.row(static_cast<int>(row));
     std::ranges::fill(to, 0.0F);
@@ -125,7 +127,7 @@ Result<LayeredFlare> draw_layers(const DrawPlan& draw, const FrameRequest& frame
       return tl::unexpected(ok.error());
   Context quiet = context;
   quiet.progress = {};
-  flare.image = sum_of(flare.layers, frame.settings.frame, quiet);
+  flare.image = sum_of(flare.layers, frame, quiet);
   return flare;
 }
 

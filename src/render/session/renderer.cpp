@@ -6,7 +6,6 @@
 
 #include "contrejour/expert/check_lens.h"
 #include "render/device/kept_device.h"
-#include "render/planning/frame_memory.h"
 #include "render/session/registry.h"
 #include "render/session/render_frame.h"
 
@@ -20,6 +19,12 @@ Context rest_of(const Context& whole, double from) {
   Context rest = whole;
   if (whole.progress) rest.progress = [&whole, from](double done) { whole.progress(from + (1.0 - from) * done); };
   return rest;
+}
+
+// Writes a flare to the caller's pixels. Its own memory then serves the session's next frame.
+Result<RenderStatistics> write_out(Flare flare, const ImageView& to, const Context& context) {
+  if (const auto written = write_pixels(flare.image, to, context); !written) return tl::unexpected(written.error());
+  return std::move(flare.statistics);
 }
 
 tl::unexpected<Error> no_lens() { return invalid_argument("a renderer has no lens yet: call set_lens() first"); }
@@ -43,13 +48,6 @@ struct Renderer::State {
                                                    const LayerOptions& options, const Context& context) {
     if (!lens) return no_lens();
     return render_frame_layers(method, {*lens, lights, settings, cache, &options}, context);
-  }
-
-  // Writes a flare to the caller's image; its memory then serves the next frame.
-  Result<RenderStatistics> write(Flare flare, const ImageView& to, const Context& context) {
-    if (const auto written = write_pixels(flare.image, to, context); !written) return tl::unexpected(written.error());
-    keep_memory(cache, std::move(flare.image));
-    return std::move(flare.statistics);
   }
 };
 
@@ -110,7 +108,7 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
   if (target.draft_is_ready && !target.is_discarded) {
     auto draft = state_->render(AdaptiveOptions{kDraftError}, lights, settings, quiet);
     if (!draft) return tl::unexpected(draft.error());
-    if (const auto written = state_->write(std::move(*draft), target.pixels, quiet); !written) return written;
+    if (const auto written = write_out(std::move(*draft), target.pixels, quiet); !written) return written;
     target.draft_is_ready();
     drafted = kDraftProgress;
   }
@@ -120,7 +118,7 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
   kept.reads_pictures = true;
   if (!flare) return tl::unexpected(flare.error());
   if (target.is_discarded) return std::move(flare->statistics);
-  return state_->write(std::move(*flare), target.pixels, quiet);
+  return write_out(std::move(*flare), target.pixels, quiet);
 }
 
 Result<Flare> Renderer::render(std::span<const Light> lights, const FrameSettings& settings, const Context& context) {

@@ -302,6 +302,19 @@ TEST_CASE("bands hold every wavelength once, more of them the less may be wrong"
   CHECK(bands_within(0.3).size() > 1);
 }
 
+TEST_CASE("many pieces of a light have finer bands, as they are all displaced alike") {
+  Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
+  const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);
+  FirstRays rays = first_rays_of(rainbow, rainbow.scene.boxes.front(), frame, {1e300, 1.0});
+  rays.tolerance.position_px = 1.0;
+  const auto bands_of = [&](std::size_t pieces) {
+    return bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm, pieces).size();
+  };
+  CHECK(bands_of(2) >= bands_of(1));
+  CHECK(bands_of(100) > bands_of(2));
+  CHECK(bands_of(100) < 16);
+}
+
 TEST_CASE("however much may be wrong, wavelengths of a band are no farther apart than colours allow") {
   Rainbow rainbow("heliar", 16.0, {3, 4}, kOffset);
   const Frame frame = frame_on_sensor(rainbow.scene.lens, 1920, 1080);

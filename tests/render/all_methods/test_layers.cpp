@@ -181,13 +181,21 @@ TEST_CASE("a session gives the layers of a single call, before and after whole f
   REQUIRE(renderer.has_value());
   CHECK(!renderer->render_layers(scene.lights, scene.settings, options).has_value());
   REQUIRE(renderer->set_lens(scene.lens).has_value());
+  std::set<const float*> memory;
   for (int turn = 0; turn < 2; ++turn) {
     const auto layers = renderer->render_layers(scene.lights, scene.settings, options);
     REQUIRE(layers.has_value());
     CHECK(layers->image.pixels == expected.image.pixels);
+    for (std::size_t k = 0; k < expected.layers.size(); ++k)
+      CHECK(layers->layers[k].image.pixels == expected.layers[k].image.pixels);
+    // The memory of the first turn's pictures, which are gone, serves the second.
+    if (turn > 0) CHECK(memory.contains(layers->layers.front().image.pixels.data()));
+    for (const FlareLayer& layer : layers->layers) memory.insert(layer.image.pixels.data());
+    memory.insert(layers->image.pixels.data());
     const auto whole = renderer->render(scene.lights, scene.settings);
     REQUIRE(whole.has_value());
     CHECK(whole->image.pixels == image_of(bounds_of("adaptive"), scene.lens, scene.lights, scene.settings).pixels);
+    memory.insert(whole->image.pixels.data());
   }
 }
 

@@ -77,6 +77,17 @@ TEST_CASE("another ghost's blur costs about what is foreseen") {
   }
 }
 
+TEST_CASE("a spot loses its place in pixels wider than it, and so does a line") {
+  const BlurredGhost spot{{1.3, 1.3}, {0.3, 0.3}, 0.4}, line{{1.3, 1.3}, {0.3, 3.0}, 0.4},
+      disc{{1.3, 1.3}, {2.0, 3.0}, 0.4};
+  CHECK(spot_error(spot, 0) > 0.1);
+  CHECK(spot_error(line, 0) >= spot_error(spot, 0));
+  CHECK(spot_error(disc, 0) < 1e-6);
+  CHECK(spot_error(line, -1) < 0.1 * spot_error(line, 0));
+  CHECK(spot_level(line, 0, 0.01) < 0);
+  CHECK(spot_level(disc, 0, 0.01) == 0);
+}
+
 TEST_CASE("levels are coarser for the dark, and only as far as allowed") {
   std::vector<BlurredGhost> ghosts;
   for (const double level : {1.0, 0.1, 0.01, 1e-4}) ghosts.push_back({{12.0, 12.0}, {80.0, 80.0}, level});

@@ -2,6 +2,8 @@
 // The tolerance says how far polynomials through a ghost's rays may be off, derived from the error in pixels.
 #pragma once
 
+#include <cstddef>
+
 #include "contrejour/frame.h"
 #include "render/adaptive/cells/ray_map_names.h"
 #include "render/ray_maps/tolerance.h"
@@ -19,6 +21,7 @@ struct ErrorBudget {
   double squared_error = 0;  // pixel values squared, summed over the frame; infinite: no limit
   double peak = 1;           // of the frame's pixel values
   LevelEstimate about = {};         // estimate of the light from the preview; 0: unknown
+  std::size_t pieces = 1;  // of the light, all of whose bands are displaced alike
 };
 
 // The tolerance for the ghost of a box's ray set. weight: the largest of any channel at any of its nodes, all

@@ -2,6 +2,7 @@
 #include "render/adaptive/budget/wavelength_bands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,13 +40,31 @@ std::vector<double> light_fractions(const FirstRays& rays, std::span<const Plann
   return fractions;
 }
 
+// The light of each channel, over that of the brightest one.
+std::array<std::vector<double>, 3> channel_fractions(const FirstRays& rays, std::span<const PlannedPass> passes) {
+  std::array<std::vector<double>, 3> fractions;
+  Rgb sum{};
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    const auto light = light_of(rays, passes, k);
+    for (std::size_t c = 0; c < 3; ++c) {
+      fractions[c].push_back(std::abs(light[c]));
+      sum[c] += std::abs(light[c]);
+    }
+  }
+  const double brightest = *std::ranges::max_element(sum);
+  for (auto& of_channel : fractions)
+    for (double& fraction : of_channel) fraction = brightest > 0.0 ? fraction / brightest : 0.0;
+  return fractions;
+}
+
 // Bands of neighbouring passes, which are merged step by step.
 class Joined {
  public:
   // between: a band may be drawn between the positions of its passes. farthest_px: the largest distance of any edge
-  // from where its band is drawn.
-  Joined(std::vector<SpectralEdge> edges, bool between, double farthest_px)
-      : edges_(std::move(edges)), between_(between), farthest_px_(farthest_px) {
+  // from where its band is drawn. channels: the light of each edge by channel, if the error is that of channels; else
+  // empty.
+  Joined(std::vector<SpectralEdge> edges, std::array<std::vector<double>, 3> channels, bool between, double farthest_px)
+      : edges_(std::move(edges)), channels_(std::move(channels)), between_(between), farthest_px_(farthest_px) {
     for (std::size_t k = 0; k <= edges_.size(); ++k) ends_.push_back(k);
     wrong_.assign(edges_.size(), 0.0);
     for (std::size_t k = 0; k + 1 < edges_.size(); ++k) with_next_.push_back(error_of(k, k + 2));
@@ -90,7 +109,14 @@ class Joined {
     const double drawn_px = between_ ? middle_of_light(edges) : edges_[Band{first, last, {}}.middle()].position_px;
     for (const SpectralEdge& edge : edges)
       if (std::abs(edge.position_px - drawn_px) > farthest_px_) return std::numeric_limits<double>::infinity();
-    return band_error(edges, drawn_px);
+    if (channels_.front().empty()) return band_error(edges, drawn_px);
+    double sum = 0.0;
+    std::vector<SpectralEdge> of_channel(edges.begin(), edges.end());
+    for (const std::vector<double>& light : channels_) {
+      for (std::size_t k = 0; k < of_channel.size(); ++k) of_channel[k].light = light[first + k];
+      sum += band_error(of_channel, drawn_px);
+    }
+    return sum / static_cast<double>(channels_.size());
   }
   [[nodiscard]] double more(std::size_t k) const { return with_next_[k] - wrong_[k] - wrong_[k + 1]; }
   [[nodiscard]] std::size_t cheapest() const {
@@ -101,6 +127,7 @@ class Joined {
   }
 
   std::vector<SpectralEdge> edges_;  // of all passes
+  std::array<std::vector<double>, 3> channels_;
   bool between_;
   double farthest_px_;
   std::vector<std::size_t> ends_;  // first pass of each band, and the end
@@ -110,14 +137,18 @@ class Joined {
 }  // namespace
 
 std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
-                            const WavelengthSamples& samples, double pixel_pitch_mm) {
+                            const WavelengthSamples& samples, double pixel_pitch_mm, std::size_t pieces) {
   if (passes.size() == 1) return {{0, 1, {}}};
   const double half_shift_px = 0.5 * shift_mm(rays.ray_sets.front(), rays.ray_sets.back()) / pixel_pitch_mm;
   const std::vector<double> fractions = light_fractions(rays, passes);
   std::vector<SpectralEdge> edges;
   for (std::size_t k = 0; k < passes.size(); ++k) edges.push_back({half_shift_px * samples.position(k), fractions[k]});
-  Joined joined(std::move(edges), rays.samples > 0, rays.tolerance.colour_px);
-  joined.join_within(std::pow(kBandFraction * rays.tolerance.position_px, 2.0));
+  Joined joined(std::move(edges), pieces > 1 ? channel_fractions(rays, passes) : std::array<std::vector<double>, 3>{},
+                rays.samples > 0, rays.tolerance.colour_px);
+  // Items share out the squared error as if theirs were independent. All pieces of a light have the same bands, though,
+  // whose errors add up: in squares to n times those of independent ones, and in each channel's colour.
+  const double apart = std::pow(kBandFraction * rays.tolerance.position_px, 2.0);
+  joined.join_within(apart / static_cast<double>(pieces));
   return joined.bands();
 }
 

@@ -13,8 +13,9 @@
 namespace contrejour::inline internal::adaptive {
 
 // As few bands as the rays' tolerance allows. Where wavelengths are interpolated, a band is drawn at the centroid of
-// its light.
+// its light. pieces: the number of pieces that the light is divided into, each of which is drawn by itself.
 [[nodiscard]] std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
-                                          const WavelengthSamples& samples, double pixel_pitch_mm);
+                                          const WavelengthSamples& samples, double pixel_pitch_mm,
+                                          std::size_t pieces = 1);
 
 }  // namespace contrejour::inline internal::adaptive
