@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/inline_if_fast.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace contrejour::inline internal::polynomial::HWY_NAMESPACE {
 
@@ -74,7 +76,7 @@ HWY_INLINE Points sum_over_w(const float* c, const Points& w) {
 }
 
 template <int kDegree, int kJ, class Points>
-HWY_INLINE Points sum_over_v(const float* c, const Points& v, const Points& w) {
+CONTREJOUR_INLINE_IF_FAST Points sum_over_v(const float* c, const Points& v, const Points& w) {
   const Points here = sum_over_w<kDegree, kJ, 0>(c, w);
   if constexpr (kJ == kDegree)
     return here;
@@ -83,7 +85,7 @@ HWY_INLINE Points sum_over_v(const float* c, const Points& v, const Points& w) {
 }
 
 template <class Points>
-HWY_INLINE Points value_of(const PowerSum& sum, const Points& v, const Points& w) {
+CONTREJOUR_INLINE_IF_FAST Points value_of(const PowerSum& sum, const Points& v, const Points& w) {
   const float* const c = sum.coefficients.data();
   switch (sum.degree) {
     case 0: return sum_over_v<0, 0>(c, v, w);
@@ -117,7 +119,7 @@ HWY_INLINE void store(const Points& values, float* to, std::size_t count) {
 
 // The points that start at one of them; `count` of them are written.
 template <class Points>
-HWY_INLINE void evaluate_from(const PupilMap& map, const Points& x_mm, const Points& y_mm, std::size_t at,
+CONTREJOUR_INLINE_IF_FAST void evaluate_from(const PupilMap& map, const Points& x_mm, const Points& y_mm, std::size_t at,
                               std::size_t count, const PointOutputs& out) {
   const Points per_mm = Points::all(map.per_mm), h = Points::all(map.h);
   const Points px = mul_add(x_mm, per_mm, Points::all(map.x)), py = mul_add(y_mm, per_mm, Points::all(map.y));

@@ -56,14 +56,15 @@ class CacheWorker {
     }
     if (auto set = configure_renderer(*renderer_, values); !set) return tl::unexpected(set.error());
     if (auto set = renderer_->set_lens(*order.lens); !set) return tl::unexpected(set.error());
+    const auto draw = [&](const PictureRequest& request) { return render_picture(request, *renderer_, context); };
     if (order.plate) {
-      auto drawn = plates_.draft(order.plate, *order.lens, values, *renderer_, context, {});
+      auto drawn = plates_.draft(order.plate, *order.lens, values, draw);
       if (!drawn) return tl::unexpected(drawn.error());
       return std::move(drawn->image);
     }
     const auto request = picture_request(values, *order.lens);
     if (!request) return tl::unexpected(request.error());
-    auto flare = render_picture(*request, *renderer_, context);
+    auto flare = draw(*request);
     if (!flare) return tl::unexpected(flare.error());
     return std::move(flare->image);
   }

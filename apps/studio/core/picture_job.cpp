@@ -14,6 +14,7 @@
 #include "contrejour/expert/settings.h"
 #include "contrejour/renderer.h"
 #include "studio/core/plate_picture.h"
+#include "studio/core/still_lights.h"
 
 namespace contrejour::studio {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kMuchSooner = 0.4;  // a draft that takes so little of its time lets the next one be finer
+constexpr double kMostStillTime_ms = 100.0;
 constexpr int kSmallestDraft = 64;
 
 // Renders on the job's thread, and keeps what frames have in common.
@@ -38,19 +40,20 @@ class PictureWorker {
     params::Values values = draft_values(order, level);
     const bool shifts_stars = StarLayers::are_wanted(values) && stars_.have(order.stars);
     if (shifts_stars) leave_out_stars(values);
-    const auto change = [&](Image& image) {
-      if (shifts_stars) add_stars(order, level.divisor, image);
-    };
     const Context context{.cancel = &control.is_ending()};
-    PictureAnswer answer = rendered(order, values, context, [&]() -> Result<PlatePictures::Picture> {
-      if (order.plate) return plates_.draft(order.plate, *order.lens, values, *renderer_, context, change);
-      auto picture = flare_of(order, values, context);
-      if (picture) change(picture->image);
-      return picture;
+    const std::string key = key_without_lights(values);
+    const auto draw_anew = [&](const PictureRequest& request) { return render_picture(request, *renderer_, context); };
+    const auto draw = [&](const PictureRequest& request) {
+      auto flare = still_lights_.draw(request, key, draw_anew);
+      if (flare && shifts_stars) add_stars(order, level.divisor, flare->image);
+      return flare;
+    };
+    PictureAnswer answer = rendered(order, values, context, [&] {
+      return order.plate ? plates_.draft(order.plate, *order.lens, values, draw) : flare_of(order, values, draw);
     });
     answer.kind = PictureKind::Draft;
     if (!order.plate) answer.pixel_area = static_cast<double>(level.divisor * level.divisor);
-    adapt(answer.time_ms);
+    adapt(answer.time_ms - still_lights_.drawn_time_ms());
     control.publish(std::move(answer));
   }
 
@@ -58,7 +61,9 @@ class PictureWorker {
     const Context context{.cancel = &control.is_outdated()};
     PictureAnswer answer = rendered(order, order.values, context, [&] {
       return order.plate ? PlatePictures::refined(*order.plate, *order.lens, order.values, *renderer_, context)
-                         : flare_of(order, order.values, context);
+                         : flare_of(order, order.values, [&](const PictureRequest& request) {
+                             return render_picture(request, *renderer_, context);
+                           });
     });
     answer.kind = PictureKind::Refined;
     if (control.is_outdated()) return;
@@ -106,29 +111,31 @@ class PictureWorker {
       renderer_ = std::move(*created);
     }
     if (auto set = configure_renderer(*renderer_, values); !set) return set;
-    if (lens_ != order.lens)
-      if (auto set = renderer_->set_lens(*order.lens); !set) return set;
+    if (lens_ == order.lens) return {};
+    still_lights_.forget();
+    if (auto set = renderer_->set_lens(*order.lens); !set) return set;
     lens_ = order.lens;
     return {};
   }
 
-  Result<PlatePictures::Picture> flare_of(const PictureOrder& order, const params::Values& values,
-                                          const Context& context) {
+  static Result<PlatePictures::Picture> flare_of(const PictureOrder& order, const params::Values& values,
+                                                 const DrawFlare& draw) {
     const auto request = picture_request(values, *order.lens);
     if (!request) return tl::unexpected(request.error());
-    auto flare = render_picture(*request, *renderer_, context);
+    auto flare = draw(*request);
     if (!flare) return tl::unexpected(flare.error());
     return PlatePictures::Picture{std::move(flare->image), flare->statistics.ghosts_rendered};
   }
 
-  // Late drafts raise the level at once; several early ones lower it, so that it does not alternate.
+  // Late drafts raise the level at once; several early ones lower it, so that it does not alternate. Another level has
+  // the lights that stand still drawn anew, for which the hand that drags a light would have to wait.
   void adapt(double time_ms) {
     if (time_ms > kDraftTime_ms) {
       level_ = std::min(level_ + 1, draft_levels().size() - 1);
       early_ = 0;
     } else if (time_ms > kMuchSooner * kDraftTime_ms || ++early_ < 8) {
       if (time_ms > kMuchSooner * kDraftTime_ms) early_ = 0;
-    } else {
+    } else if (still_lights_.kept_time_ms() < kMostStillTime_ms) {
       level_ -= level_ > 0 ? 1 : 0;
       early_ = 0;
     }
@@ -137,6 +144,7 @@ class PictureWorker {
   std::optional<Renderer> renderer_;
   std::shared_ptr<const LensState> lens_;
   StarLayers stars_;
+  StillLights still_lights_;
   PlatePictures plates_;
   std::size_t level_ = 1;
   int early_ = 0;

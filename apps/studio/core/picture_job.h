@@ -2,7 +2,8 @@
 // Pictures of the flare for the viewport: for each request first a draft, and after 150 ms of rest the picture itself,
 // which is that of `contrejour render`, bit for bit, or with a plate that of `contrejour apply`. The next request stops
 // the picture, but never a draft: a light that is dragged would else have none. Drafts are coarser (size, error) the
-// longer they take, so that they keep up. Thread-safety: as of LatestJob.
+// longer they take, so that they keep up; of many lights they draw those anew that move (still_lights.h).
+// Thread-safety: as of LatestJob.
 #pragma once
 
 #include <cstdint>

@@ -80,8 +80,7 @@ const Image& PlatePictures::reduced(int width, int height) {
 }
 
 Result<PlatePictures::Picture> PlatePictures::draft(const std::shared_ptr<const Plate>& plate, const LensState& lens,
-                                                    const params::Values& values, Renderer& renderer,
-                                                    const Context& context, const std::function<void(Image&)>& change) {
+                                                    const params::Values& values, const DrawFlare& draw) {
   if (plate_ != plate) {
     plate_ = plate;
     reduced_.clear();
@@ -95,9 +94,8 @@ Result<PlatePictures::Picture> PlatePictures::draft(const std::shared_ptr<const 
     for (double& value : request->lights[k].value) value *= params::gain(values);
   Picture picture{reduced(request->grid.width, request->grid.height), 0};
   if (request->lights.empty()) return picture;
-  auto flare = render_picture(*request, renderer, context);
+  const auto flare = draw(*request);
   if (!flare) return tl::unexpected(flare.error());
-  if (change) change(flare->image);
   const Image& whole = plate->picture.rgb;
   const double area = static_cast<double>(whole.width) * whole.height /
                       (static_cast<double>(picture.image.width) * picture.image.height);

@@ -3,7 +3,6 @@
 // reduced. Thread-safety: a plain class, one thread at a time.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "contrejour/image.h"
 #include "contrejour/lens.h"
 #include "contrejour/renderer.h"
+#include "studio/core/still_lights.h"
 
 namespace contrejour::studio {
 
@@ -29,11 +29,10 @@ class PlatePictures {
   [[nodiscard]] static Result<Picture> refined(const Plate& plate, const LensState& lens, const params::Values& values,
                                                Renderer& renderer, const Context& context);
 
-  // By values whose size is the plate's over a divisor. change: of the flare, whose pixels are still sums over their
-  // areas, before it is added. Errors: also those of picture_request.
+  // By values whose size is the plate's over a divisor. draw: the flare, whose pixels are still sums over their areas.
+  // Errors: also those of picture_request and `draw`.
   [[nodiscard]] Result<Picture> draft(const std::shared_ptr<const Plate>& plate, const LensState& lens,
-                                      const params::Values& values, Renderer& renderer, const Context& context,
-                                      const std::function<void(Image&)>& change);
+                                      const params::Values& values, const DrawFlare& draw);
 
  private:
   [[nodiscard]] Result<std::vector<Light>> detected(const Plate& plate, const LensState& lens,
