@@ -13,6 +13,7 @@
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/renderer.h"
+#include "studio/core/free_memory.h"
 #include "studio/core/plate_picture.h"
 #include "studio/core/still_lights.h"
 
@@ -71,6 +72,10 @@ class PictureWorker {
     // For the drafts to come; without them they take longer.
     if (renderer_ && StarLayers::are_wanted(order.values))
       static_cast<void>(stars_.prepare(order.stars, order.values, *order.lens, *renderer_, context));
+    if (released_after_ != lens_ && !control.is_outdated()) {
+      release_free_memory();  // tables and pupils of the lens before
+      released_after_ = lens_;
+    }
   }
 
   static void leave_out_stars(params::Values& values) {
@@ -142,7 +147,7 @@ class PictureWorker {
   }
 
   std::optional<Renderer> renderer_;
-  std::shared_ptr<const LensState> lens_;
+  std::shared_ptr<const LensState> lens_, released_after_;
   StarLayers stars_;
   StillLights still_lights_;
   PlatePictures plates_;
