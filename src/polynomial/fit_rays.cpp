@@ -37,7 +37,7 @@ void weigh_rays(FitRays& rays, double near_mm) {
     }
     if (!(largest < kFailed)) continue;
     const double by_landing = std::min(1.0, near_mm / std::max(landing_mm, near_mm));
-    // Of one node by itself, the two clearances are equal.
+    // For a single node the two clearances are equal.
     const double elsewhere = rays.nodes.size() > 1 ? std::pow(std::max(largest, 1.0), -kFallElsewhere) : 1.0;
     const auto falling = [&](double power) { return elsewhere * std::pow(std::max(clearance, 1.0), -power); };
     if (clearance < kFarthestLight) rays.for_light.add(ray, by_landing * falling(kFallLight));

@@ -14,7 +14,7 @@
 
 namespace contrejour::inline internal::polynomial {
 
-// Where between two states the surfaces of a lens are, 0 to 1: the best fit to all of them.
+// The position of a lens's surfaces between those of two states, 0 to 1: the best fit to all of them.
 [[nodiscard]] double between_positions(std::span<const double> low_mm, std::span<const double> high_mm,
                                        std::span<const double> z_mm);
 

@@ -181,7 +181,7 @@ TEST_CASE("the halo about the light is left out of the residual, what the fit la
   };
   const MeasuredAnswer middle = answer_to(job, {file, 3, sweep});
   REQUIRE_MESSAGE(middle.photograph, middle.error);
-  // What is left lies next to the light, where half a per cent of the halo is as bright as a part of the disc.
+  // The rest lies next to the light, where half a per cent of the halo is as bright as a part of the disc.
   CHECK(bright(middle.photograph->captured, kMeasuredWidth, kMeasuredHeight) > 20000);
   CHECK(bright(middle.photograph->residual, kMeasuredWidth, kMeasuredHeight) < 3000);
   const MeasuredAnswer last = answer_to(job, {file, 9, sweep});

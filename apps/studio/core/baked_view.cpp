@@ -12,9 +12,10 @@ namespace {
 constexpr float kLinearBelow = 1.0F / 512;  // below it values are spaced linearly
 constexpr float kBrightest = 1024;
 constexpr int kTableSide = 73;
-// Cells whose middle is farther from the view than so many codes, or that the gamut's edge cuts, are not interpolated.
+// A cell is not interpolated if its middle is farther from the view than this many codes, or if the gamut's edge cuts
+// it.
 constexpr float kMostApart = 0.5F;
-constexpr float kSteep = 50;  // so many codes beyond the display's white
+constexpr float kSteep = 50;  // codes beyond the display's white
 constexpr int kTableRow = kTableSide, kTablePlane = kTableSide * kTableSide;
 
 // The logarithm to base 2 of positive values: a polynomial of the mantissa that is exact at powers of two, elsewhere to
@@ -29,7 +30,7 @@ float log2_of(float value) {
 
 constexpr float kStart = -9, kStops = 19.0000027F;  // logarithms of kLinearBelow, and of all above it
 
-// Where a value lies in the table, 0 to kTableSide - 1.
+// The position of a value in the table, 0 to kTableSide - 1.
 float place_of(float value) {
   constexpr float kEnd = kTableSide - 1;
   float in_range = value > 0 ? value : 0;  // also where it is not a number

@@ -22,7 +22,7 @@ using RingLevels = std::array<std::vector<float>, 3>;
 // as it is outside its frame.
 [[nodiscard]] RingLevels ring_levels(const Image& residual, const Image& photograph, Vec2 light_px);
 
-// Of three stations at least, else none (empty).
+// It takes at least three stations; with fewer there is none (empty).
 [[nodiscard]] RingLevels halo_of(std::span<const RingLevels> stations);
 
 // The residual less the halo, as bright as this station has it, within a third.

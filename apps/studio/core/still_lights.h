@@ -23,8 +23,8 @@ class StillLights {
   // those of `draw`.
   [[nodiscard]] Result<Flare> draw(const PictureRequest& request, const std::string& key, const DrawFlare& draw);
   void forget() { *this = StillLights(); }  // the lens is another one
-  // What the lights that stand still took when they were drawn, in ms; 0: none are kept. drawn_time_ms: within the last
-  // call.
+  // The time that drawing the lights that stand still took, in ms; 0: none are kept. drawn_time_ms: that within the
+  // last call.
   [[nodiscard]] double kept_time_ms() const { return kept_ ? kept_time_ms_ : 0.0; }
   [[nodiscard]] double drawn_time_ms() const { return were_drawn_ ? kept_time_ms() : 0.0; }
 

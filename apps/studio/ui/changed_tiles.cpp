@@ -75,7 +75,7 @@ PixelRect box_of(const Triangle& corners, const FrameSize& size) {
           static_cast<int>(std::ceil(pixel(max.y, size.origin.y, size.scale.y, size.height)))};
 }
 
-// Of two 64-bit values by multiplication and rotation, as FxHash does.
+// Combines two 64-bit values by multiplication and rotation, as FxHash does.
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
   return (std::rotl(hash, 5) ^ value) * 0x517CC1B727220A95ULL;
 }

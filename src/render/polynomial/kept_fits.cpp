@@ -39,7 +39,7 @@ std::uint64_t fingerprint_of(const PlannedFrame& planned) {
   return *kept->value;
 }
 
-// What a file has.
+// The contents of a fit's file: the fit of one state, or that of a range.
 struct KeptFile {
   struct Key {
     std::filesystem::path file;
