@@ -182,7 +182,7 @@ constexpr bool kArePlain = (std::is_trivially_copyable_v<Element> && ...);
 static_assert(kArePlain<Point, Polygon, LinearIrradiance, Pattern, IrisBound, EdgeTable, EdgeStep, WavelengthWeights,
                         PixelSpan, TextureTable::Level, TextureTable::Pair>);
 
-TEST_CASE("edges' fringes: the table's, at every pixel") {
+TEST_CASE("edges' fringes: the table's, at every pixel [slow]") {
   const auto iris = blades();
   PatternAtlas atlas;
   bool alone = false;

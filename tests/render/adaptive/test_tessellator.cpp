@@ -239,7 +239,7 @@ double light_off(const AffineGhost& ghost, const Iris& iris) {
 
 }  // namespace
 
-TEST_CASE("any affine ghost keeps its light, from some pixels to most of the frame") {
+TEST_CASE("any affine ghost keeps its light, from some pixels to most of the frame [slow]") {
   FuzzedGhosts fuzz(23);
   for (int trial = 0; trial < 240; ++trial) {
     CAPTURE(trial);

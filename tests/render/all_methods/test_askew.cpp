@@ -27,7 +27,7 @@ TEST_CASE("a lens with errors as in the reference, and unlike the lens as it oug
   }
 }
 
-TEST_CASE("on the axis a lens with errors is not symmetric; the same for any threads; no errors, no change") {
+TEST_CASE("on the axis a lens with errors is not symmetric; the same for any threads; no errors, no change [slow]") {
   const LensState lens = bundled("heliar", {.f_number = 11.0, .build = {0.005, 0.2, 4}});
   const LensState none = bundled("heliar", {.f_number = 11.0, .build = {0.0, 0.0, 4}});
   const LensState ideal = bundled("heliar", {.f_number = 11.0});

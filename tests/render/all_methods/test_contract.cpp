@@ -57,7 +57,7 @@ TEST_CASE("no light, no flare") {
   });
 }
 
-TEST_CASE("flare is linear in the light, and lights add") {
+TEST_CASE("flare is linear in the light, and lights add [slow]") {
   const LensState lens = heliar();
   const test::Settings settings = quick_frame(lens, 48, 32);
   Light a = light_at(lens, settings.frame, {0.7, 0.33});

@@ -287,7 +287,7 @@ TEST_CASE("shadows wander smoothly and come back") {
   }
 }
 
-TEST_CASE("as much dirt as there may be leaves little light, and none of it negative") {
+TEST_CASE("as much dirt as there may be leaves little light, and none of it negative [slow]") {
   LensState lens = plate();
   const test::Settings settings = green({40, 40, 0, 0, 40, 40, 0.16});
   const double level = 0.04 * 0.04 * 0.16 * 0.16 / (std::numbers::pi * kPlateRadius_mm * kPlateRadius_mm);

@@ -51,7 +51,7 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST_CASE("interrupted at any moment, a render refuses or has the whole flare") {
-  constexpr int kMoments = kSanitized ? 5 : 10;
+  constexpr int kMoments = kSanitized ? 3 : 6;
   for (const Case& c : cases()) {
     for_each_method([&](const Bounds& bounds) {
       if (bounds.method != render_methods().front() && c.is_of_the_driver) return;

@@ -162,7 +162,7 @@ TEST_CASE("lights that cannot be: refused with a reason, the nearest that can re
   }
 }
 
-TEST_CASE("lights at several distances add, whatever the threads") {
+TEST_CASE("lights at several distances add, whatever the threads [slow]") {
   const LensState lens = bundled("heliar", {.f_number = 11.0});
   test::Settings settings = small_frame(lens, 48, 32);
   settings.reference.density = 0.2;

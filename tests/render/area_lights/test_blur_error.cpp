@@ -57,7 +57,7 @@ BlurredGhost ghost_of(double radius_px, double blur_px) { return {{blur_px, blur
 
 }  // namespace
 
-TEST_CASE("coarse pixels cost about what is foreseen") {
+TEST_CASE("coarse pixels cost about what is foreseen [slow]") {
   for (const auto& [blur, level] : {std::pair{6.0, 1}, {6.0, 2}, {12.0, 2}, {12.0, 3}}) {
     CAPTURE(blur);
     CAPTURE(level);
@@ -68,7 +68,7 @@ TEST_CASE("coarse pixels cost about what is foreseen") {
   }
 }
 
-TEST_CASE("another ghost's blur costs about what is foreseen") {
+TEST_CASE("another ghost's blur costs about what is foreseen [slow]") {
   for (const double other : {9.0, 11.0, 14.0}) {
     const double made = squares(blurred_disc(50.0, other, 0), blurred_disc(50.0, 10.0, 0));
     const double foreseen = 2.0 * kPi * (50.0 + 10.0) * misfit_error(1.0, 10.0, std::abs(other - 10.0));

@@ -61,7 +61,7 @@ Vec2 centroid_of(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("the sun is the sum of points over its disc") {
+TEST_CASE("the sun is the sum of points over its disc [slow]") {
   struct Case {
     const char* lens;
     double f_number;
@@ -347,7 +347,7 @@ double flux_in(const Image& image, int x0, int y0, int side) {
   return sum;
 }
 
-TEST_CASE("a disc's starburst is the sum of its points', and holds the light's value") {
+TEST_CASE("a disc's starburst is the sum of its points', and holds the light's value [slow]") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0, .iris = {6}});
   const test::Settings settings = starburst_alone(lens, 240, 160);
   Light light = sun(0.02, 0.01);

@@ -125,7 +125,7 @@ TEST_CASE("a dirty lens's starburst sums to what dirt lets through") {
   }
 }
 
-TEST_CASE("frames follow one another smoothly, and a turn's end is its beginning") {
+TEST_CASE("frames follow one another smoothly, and a turn's end is its beginning [slow]") {
   LensSettings settings = with_dirt(DirtPlane::Front);
   const Vec3 direction = direction_from_angles(0.1, 0.05);
   const auto at = [&](double phase) {

@@ -313,7 +313,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("off: not one bit changes, whatever else is set; on: the sum of both, with every method") {
+TEST_CASE("off: not one bit changes, whatever else is set; on: the sum of both, with every method [slow]") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0, .iris = {7, 0.1}});
   test::Settings off;
   off.frame = frame_on_sensor(lens, 48, 32);
