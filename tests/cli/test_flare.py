@@ -451,8 +451,8 @@ class Bench(ProgramTest):
 
     def test_the_papers_ghosts_films_and_grids(self):
         def rows(*arguments):
-            self.run_program("bench", "tables", "--tables", "3", "--size", "48x27", "--grid", "16", "--json", "t.json",
-                             *arguments)
+            self.run_program("bench", "tables", "--tables", "3", "--size", "48x27", "--grid", "16", "--wavelengths", "1",
+                             "--json", "t.json", *arguments)
             return json.loads((self.folder / "t.json").read_text())["rows"]
 
         ghosts = {row["settings"]["lens"]: row["ghosts_rendered"] for row in rows("--paper-ghosts")}
