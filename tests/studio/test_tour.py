@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two minutes of docs/studio.md, step by step, and its panels. With CONTREJOUR_WRITE_PICTURES=1 the screenshots become the page's;
-CONTREJOUR_STREET then names the plate, street.exr of contrejour-demo."""
+CONTREJOUR_STREET then names the plate, street.exr of contrejour-demo, and CONTREJOUR_FOOTAGE the folder of its footage."""
 import os
 import pathlib
 import shutil
 import subprocess
+import unittest
 
 from studio_program import PROGRAM, StudioTest, read_exr, run_tests, scene
 
@@ -102,9 +103,20 @@ class Tour(StudioTest):
         subprocess.run([PROGRAM, "render", "heliar", "--starburst", "--light-at", "0.6,0.4:30000", "--size", "96x64", "-o", "plate.exr"],
                        cwd=self.folder, check=True, capture_output=True, timeout=60)
 
+    @unittest.skipUnless(WRITES, "writes the page's pictures of numbered plates; test_plate_frames.py checks them")
+    def test_write_pictures_of_a_shot(self):
+        plate = sorted(pathlib.Path(os.environ["CONTREJOUR_FOOTAGE"]).glob("plate.*.exr"))[0]
+        away = [["move", "status", 0.1, 0.5], ["frames", 3]]
+        self.run_studio([["wait"], ["click", "toolbar/plate"], ["frames", 4], ["type", str(plate)], ["frames", 3], ["click", "dialog/sequence"],
+                         ["frames", 3], ["click", "dialog/accept"], ["wait"], ["key", "shift+l"], ["wait"], ["key", "f11"], ["frames", 3],
+                         ["click", "timeline/ruler", 0.5, 0.5], ["wait"], ["click", "viewport/auto-exposure"], ["wait"], *away,
+                         ["click", "viewport/transform"], ["wait"], ["frames", 3], ["screenshot", "sequence.png"]],
+                        start=None, window="1200x700")
+        shutil.copy(self.folder / "sequence.png", PICTURES)
+
     def test_the_page_has_its_pictures(self):
-        sizes = [(PICTURES / f"{name}.png").stat().st_size for name in (*NAMES, *PANELS, "photographs")]
-        self.assertLess(sum(sizes), 5 << 19)
+        sizes = [(PICTURES / f"{name}.png").stat().st_size for name in (*NAMES, *PANELS, "sequence", "photographs")]
+        self.assertLess(sum(sizes), 3 << 20)
 
 
 if __name__ == "__main__":

@@ -50,7 +50,8 @@ void draw_folder(Ui& ui) {
   const auto folder = folder_of(ui.state.path);
   ImGui::TextDisabled("%s", folder.string().c_str());
   const float room = ImGui::GetIO().DisplaySize.y - scaled(330);  // what is above and below it in the largest dialog
-  ImGui::BeginChild("##folder", {scaled(560), std::clamp(room, scaled(80), scaled(260))}, true);
+  ImGui::BeginChild("##folder", {scaled(560), std::clamp(room, scaled(80), scaled(260))}, true,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (ImGui::Selectable("..")) ui.state.path = folder.parent_path().string() + "/";
   for (const FolderEntry& entry : entries_of(folder))
     if (ImGui::Selectable((entry.name + (entry.is_folder ? "/" : "")).c_str(), false,
