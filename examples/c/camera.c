@@ -71,7 +71,7 @@ int main(int count, char** arguments) {
       fputc((int)level, file);
     }
   }
-  // Where a lamp's image lies: through the middle of the stop, and its blur through the edge.
+  // The lamp's image lies where the ray through the middle of the stop lands; the one through the edge shows its blur.
   double at[2], edge[2];
   if (lens_sensor(300.0, 300.0, kLamps_mm, 1.0, 0.0, 0.0, kLambda_nm, at) &&
       lens_sensor(300.0, 300.0, kLamps_mm, 1.0, opening, 0.0, kLambda_nm, edge))

@@ -64,7 +64,8 @@ Vec2 traced_stop(const TracedRay& ray) {
 
 bool succeeds(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
 
-// What a program printed for camera_samples(), a ray and the sensor's point for the scene's point 2 m along it each.
+// Compares what a program printed for camera_samples(), a ray and the sensor's point for the scene's point 2 m along it
+// each.
 void check_printed_rays(const std::string& file, int count) {
   std::ifstream printed(file);
   for (const auto& [sensor_mm, stop, lambda_nm] : camera_samples(count)) {
