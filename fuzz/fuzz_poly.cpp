@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "contrejour/expert/direct_polynomials.h"
 #include "contrejour/expert/polynomial_range.h"
 
 namespace {
@@ -17,9 +18,21 @@ void demand(bool holds) {
   if (!holds) std::abort();
 }
 
+void read_direct(std::string_view bytes) {
+  const auto read = read_direct_polynomials(bytes, "fuzz.poly");
+  if (!read) return;
+  const std::string written = write_direct_polynomials(*read);
+  const auto again = read_direct_polynomials(written, "again.poly");
+  demand(again.has_value() && write_direct_polynomials(*again) == written);
+  static_cast<void>(direct_ray(*read, {0.1 * read->max_height_mm, 0.2 * read->max_height_mm}, {0.1, -0.2}, 550.0));
+  static_cast<void>(direct_sensor_point(*read, {{1.0, 2.0, read->front_z_mm - 100.0}}, {0.1, -0.2}, 550.0));
+  demand(read_direct_polynomials(write_direct_polynomials(at_wavelength(*read, 500.0)), "one.poly").has_value());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  read_direct({reinterpret_cast<const char*>(data), size});
   const auto any = read_any_polynomials({reinterpret_cast<const char*>(data), size}, "fuzz.poly");
   if (!any) return 0;
   if (const auto* const range = std::get_if<LensPolynomialRange>(&*any)) {

@@ -170,6 +170,7 @@ PUBLIC = {
     "expert/plate.h": "plates",
     "expert/colour_view.h": "plates",
     "expert/polynomial.h": "polynomial",
+    "expert/direct_polynomials.h": "polynomial",
     "expert/polynomial_method.h": "render/planning",
     "expert/polynomial_range.h": "polynomial",
     "expert/published_fits.h": "polynomial",

@@ -17,6 +17,7 @@
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/polynomial_direct.h"
 #include "cli/text_table.h"
 #include "contrejour/expert/polynomial_range.h"
 #include "contrejour/expert/settings.h"
@@ -33,7 +34,8 @@ constexpr const char* kPolynomialFitExamples =
     "  contrejour polynomial fit heliar -o heliar.poly\n"
     "  contrejour polynomial fit canon-70-200 --focal 135 --half-field 12 -o canon.poly --json\n"
     "  contrejour polynomial fit nikon-80-200 --zoom-range 80,200 -o nikon.poly\n"
-    "  contrejour polynomial fit planar-50 --focus-range 500,inf -o planar.poly";
+    "  contrejour polynomial fit planar-50 --focus-range 500,inf -o planar.poly\n"
+    "  contrejour polynomial fit planar-50 --focus 2000 --direct -o planar-direct.poly";
 constexpr const char* kPolynomialInfoExamples =
     "order: the highest of the sensor's position. p95: 95 per cent of rays that were left out of the fit land nearer\n"
     "than this to their traced point, in pixels of the sensor's width / 1920. edge: the same at the stop and the "
@@ -49,7 +51,7 @@ struct PolynomialFitSettings {
   double half_field_deg = 0.0;
   std::vector<double> zoom_mm, focus_mm;
   int max_order = PolynomialOptions{}.max_order, threads = 0;
-  bool json = false;
+  bool json = false, direct = false;
   params::Values values;
 };
 
@@ -208,6 +210,9 @@ Result<int> run_polynomial_range_fit(const PolynomialFitSettings& options) {
 }
 
 Result<int> run_polynomial_fit(const PolynomialFitSettings& options) {
+  if (options.direct)
+    return run_direct_fit({options.lens, options.output, options.max_order, options.threads, options.json},
+                          options.values);
   if (!options.zoom_mm.empty() || !options.focus_mm.empty()) return run_polynomial_range_fit(options);
   const auto lens = open_lens(options.lens, options.values);
   if (!lens) return tl::unexpected(lens.error());
@@ -220,6 +225,7 @@ Result<int> run_polynomial_fit(const PolynomialFitSettings& options) {
 }
 
 Result<int> run_polynomial_info(const std::string& file, bool json) {
+  if (is_direct_polynomial_file(file)) return run_direct_info(file, json);
   const auto polynomials = read_any_polynomial_file(file);
   if (!polynomials) return tl::unexpected(polynomials.error());
   std::error_code ignored;  // it was read
@@ -251,13 +257,19 @@ void add_polynomial_fit(CLI::App& polynomial, Action& action) {
           ->delimiter(',')
           ->expected(2)
           ->option_text("MM,MM");
+  CLI::Option* const focus =
+      command
+          ->add_option("--focus-range", options->focus_mm,
+                       "one fit for all distances of the object between two, mm, at one focal length; inf: infinity")
+          ->delimiter(',')
+          ->expected(2)
+          ->option_text("MM,MM")
+          ->excludes(zoom);
   command
-      ->add_option("--focus-range", options->focus_mm,
-                   "one fit for all distances of the object between two, mm, at one focal length; inf: infinity")
-      ->delimiter(',')
-      ->expected(2)
-      ->option_text("MM,MM")
-      ->excludes(zoom);
+      ->add_flag("--direct", options->direct,
+                 "fit the direct image in place of the ghosts: camera rays, for path tracers and bokeh")
+      ->excludes(zoom)
+      ->excludes(focus);
   add_number(*command, "--threads", options->threads, 0, 4096, "number of threads; 0: one per core");
   command->add_flag("--json", options->json, "print a report as JSON");
   add_lens_parameters(*command, options->values);
@@ -281,7 +293,8 @@ void add_polynomial_info(CLI::App& polynomial, Action& action) {
 }  // namespace
 
 void add_polynomial(CLI::App& app, Action& action) {
-  CLI::App* polynomial = app.add_subcommand("polynomial", "fit, describe and export polynomials of a lens's ghosts");
+  CLI::App* polynomial = app.add_subcommand(
+      "polynomial", "fit, describe and export polynomials of a lens's ghosts and of its camera rays");
   polynomial->require_subcommand(1);
   polynomial->footer(
       "Examples:\n"

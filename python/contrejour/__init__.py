@@ -52,6 +52,7 @@ from ._pictures import (
     read_picture,
     write_picture,
 )
+from ._direct_polynomials import CameraRays, DirectPolynomials, fit_direct_polynomials, read_direct_polynomials
 from ._polynomials import PolynomialRays, Polynomials, fit_polynomials, read_polynomials
 from ._rays import GhostFigures, TracedRays, ghosts, trace
 from ._rendering import Flare, LayeredFlare, Light, Renderer, render, render_layers, starburst
@@ -59,12 +60,14 @@ from ._settings import Parameter, Preset, bundled_presets, find_preset, paramete
 
 __all__ = [
     "AppliedFlare",
+    "CameraRays",
     "CancelFlag",
     "CancelledError",
     "Coating",
     "Comparison",
     "DetectedLight",
     "Detection",
+    "DirectPolynomials",
     "Error",
     "Film",
     "FirstOrder",
@@ -103,11 +106,13 @@ __all__ = [
     "find_glass",
     "find_lens",
     "find_preset",
+    "fit_direct_polynomials",
     "fit_polynomials",
     "ghosts",
     "parameters",
     "png_of",
     "read_coating",
+    "read_direct_polynomials",
     "read_flare",
     "read_lens_toml",
     "read_picture",

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_native, module) {
   add_measured(module);
   add_rays(module);
   add_polynomials(module);
+  add_direct_polynomials(module);
   add_rendering(module);
   add_pictures(module);
 }

@@ -49,6 +49,7 @@ void add_measured(py::module_& module);
 void add_rays(py::module_& module);
 void add_rendering(py::module_& module);
 void add_polynomials(py::module_& module);
+void add_direct_polynomials(py::module_& module);
 void add_pictures(py::module_& module);
 
 }  // namespace contrejour::python

@@ -32,7 +32,7 @@ int @ray(int ghost, double field, double x_mm, double y_mm, double lambda_nm, do
   for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
     const double *zone = @zones + 5 * k;
     if (field < zone[0] || field > zone[1]) continue;
-    const int *parts = @parts + 3 * k;
+    const int *parts = @parts + 5 * k;
     const int *sum = @sums + 3 * parts[0];
     double tu[13], tv[13], tw[13], tl[13];
     const double low = zone[0] * zone[0], high = zone[1] * zone[1];
@@ -57,9 +57,31 @@ int @ray(int ghost, double field, double x_mm, double y_mm, double lambda_nm, do
   }
   return 0;
 }
+
+static double @centre(int zone, double field) {
+  const double *z = @zones + 5 * zone, low = z[0] * z[0], high = z[1] * z[1];
+  return (z[2] + z[3] * (2.0 * field * field - low - high) / (high - low)) * field;
+}
+
+int @bounds(int ghost, double field, double *out) {
+  for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
+    const double *b = @fields + 4 * @parts[5 * k + 3];
+    if (field < @zones[5 * k] || field > @zones[5 * k + 1]) continue;
+    for (int i = 1; i < @parts[5 * k + 4]; ++i, b += 4) {
+      if (field < b[0] || field > b[4] || !(b[1] < b[2]) || !(b[5] < b[6])) continue;
+      const double here = @centre(k, field), before = @centre(k, b[0]), after = @centre(k, b[4]);
+      out[0] = here + (b[1] - before < b[5] - after ? b[1] - before : b[5] - after);
+      out[1] = here + (b[2] - before > b[6] - after ? b[2] - before : b[6] - after);
+      out[2] = b[3] > b[7] ? b[3] : b[7];
+      return 1;
+    }
+  }
+  return 0;
+}
 )code";
 
-inline constexpr std::string_view kCodeInGlsl = R"code(
+// GLSL and HLSL alike.
+inline constexpr std::string_view kCodeInShaders = R"code(
 float @value(int sum, float tu[13], float tv[13], float tw[13], float tl[13]) {
   int degree = @sums[3 * sum], c = @sums[3 * sum + 2];
   float total = 0.0;
@@ -67,7 +89,7 @@ float @value(int sum, float tu[13], float tv[13], float tw[13], float tl[13]) {
     float part = 0.0;
     for (int v = 0; v <= degree; ++v)
       for (int w = 0; w <= degree - v; ++w)
-        for (int u = 0; u <= degree - v - w; ++u) part += @coefficients[c++] * tv[v] * tw[w] * tu[u];
+        for (int u = 0; u <= degree - v - w; ++u, ++c) part += @COEFFICIENT(c) * tv[v] * tw[w] * tu[u];
     total += tl[l] * part;
   }
   return total;
@@ -84,7 +106,7 @@ bool @ray(int ghost, float field, float x_mm, float y_mm, float lambda_nm, out f
   for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
     float low = @zones[5 * k], high = @zones[5 * k + 1];
     if (field < low || field > high) continue;
-    int sum = @parts[3 * k];
+    int sum = @parts[5 * k];
     float tu[13], tv[13], tw[13], tl[13];
     float u = (2.0 * field * field - low * low - high * high) / (high * high - low * low), h = field / high;
     float px = (x_mm - (@zones[5 * k + 2] + @zones[5 * k + 3] * u) * field) / @zones[5 * k + 4];
@@ -94,15 +116,39 @@ bool @ray(int ghost, float field, float x_mm, float y_mm, float lambda_nm, out f
     @chebyshev(2.0 * (px * px + py * py) - 1.0, tw);
     float ratio = 550.0 / lambda_nm;
     @chebyshev((2.0 * ratio * ratio - 302500.0 * (@SHORTEST + @LONGEST)) / (302500.0 * (@SHORTEST - @LONGEST)), tl);
-    for (int i = 0; i <= @parts[3 * k + 1]; ++i, sum += 2) {
+    for (int i = 0; i <= @parts[5 * k + 1]; ++i, sum += 2) {
       float a = @value(sum, tu, tv, tw, tl), b = @value(sum + 1, tu, tv, tw, tl);
       result[2 * i] = h * a + px * b;
       result[2 * i + 1] = py * b;
     }
-    for (int i = 0; i < @parts[3 * k + 2]; ++i, ++sum)
+    for (int i = 0; i < @parts[5 * k + 2]; ++i, ++sum)
       result[8] = max(result[8], @value(sum, tu, tv, tw, tl));
     result[9] = @value(sum, tu, tv, tw, tl);
     return true;
+  }
+  return false;
+}
+
+float @centre(int zone, float field) {
+  float low = @zones[5 * zone], high = @zones[5 * zone + 1];
+  float u = (2.0 * field * field - low * low - high * high) / (high * high - low * low);
+  return (@zones[5 * zone + 2] + @zones[5 * zone + 3] * u) * field;
+}
+
+bool @bounds(int ghost, float field, out float result[3]) {
+  for (int i = 0; i < 3; ++i) result[i] = 0.0;
+  for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
+    if (field < @zones[5 * k] || field > @zones[5 * k + 1]) continue;
+    int b = 4 * @parts[5 * k + 3];
+    for (int j = 1; j < @parts[5 * k + 4]; ++j, b += 4) {
+      if (field < @fields[b] || field > @fields[b + 4]) continue;
+      if (!(@fields[b + 1] < @fields[b + 2]) || !(@fields[b + 5] < @fields[b + 6])) continue;
+      float here = @centre(k, field), before = @centre(k, @fields[b]), after = @centre(k, @fields[b + 4]);
+      result[0] = here + min(@fields[b + 1] - before, @fields[b + 5] - after);
+      result[1] = here + max(@fields[b + 2] - before, @fields[b + 6] - after);
+      result[2] = max(@fields[b + 3], @fields[b + 7]);
+      return true;
+    }
   }
   return false;
 }
@@ -136,7 +182,7 @@ def @ray(ghost, field, x_mm, y_mm, lambda_nm):
         low, high, centre, slope, radius = @zones[5 * k : 5 * k + 5]
         if field < low or field > high:
             continue
-        at, crossings, rims = @parts[3 * k : 3 * k + 3]
+        at, crossings, rims = @parts[5 * k : 5 * k + 3]
         u = (2.0 * field * field - low * low - high * high) / (high * high - low * low)
         h = field / high
         px, py = (x_mm - (centre + slope * u) * field) / radius, y_mm / radius
@@ -156,6 +202,26 @@ def @ray(ghost, field, x_mm, y_mm, lambda_nm):
             at += 1
         out[9] = @value(at, *bases)
         return out
+    return None
+
+
+def @centre(zone, field):
+    low, high, centre, slope = @zones[5 * zone : 5 * zone + 4]
+    return (centre + slope * (2.0 * field * field - low * low - high * high) / (high * high - low * low)) * field
+
+
+def @bounds(ghost, field):
+    for k in range(@first_zone[ghost], @first_zone[ghost + 1]):
+        if field < @zones[5 * k] or field > @zones[5 * k + 1]:
+            continue
+        first, count = @parts[5 * k + 3 : 5 * k + 5]
+        for b in range(4 * first, 4 * (first + count - 1), 4):
+            field_a, low_a, high_a, half_a, field_b, low_b, high_b, half_b = @fields[b : b + 8]
+            if not field_a <= field <= field_b or low_a >= high_a or low_b >= high_b:
+                continue
+            here, before, after = @centre(k, field), @centre(k, field_a), @centre(k, field_b)
+            low, high = min(low_a - before, low_b - after), max(high_a - before, high_b - after)
+            return [here + low, here + high, max(half_a, half_b)]
     return None
 )code";
 

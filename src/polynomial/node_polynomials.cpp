@@ -28,8 +28,8 @@ std::vector<double> coefficients_of(std::span<const double> values) {
   return out;
 }
 
-// Coefficients by wavelength terms from solutions at Lobatto wavelengths, without the last terms that together change
-// no value by more than `negligible`.
+}  // namespace
+
 ChebyshevSum assembled(int degree, std::span<const std::vector<double>> solutions, std::size_t from,
                        double negligible) {
   const auto count = static_cast<std::size_t>(term_count(degree));
@@ -57,8 +57,6 @@ ChebyshevSum assembled(int degree, std::span<const std::vector<double>> solution
       sum.coefficients.push_back(static_cast<float>(step * std::round(coefficients[l] / step)));
   return sum;
 }
-
-}  // namespace
 
 bool Systems::has_enough_rays(int degree) const {
   return static_cast<double>(weighted_.used.size()) >= kSamplesPerUnknown * term_count(degree);

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "polynomial/fit_rays.h"
@@ -36,6 +37,11 @@ class Systems {
   const WeightedRays& weighted_;
   Made scalars_, vectors_;
 };
+
+// Coefficients by wavelength terms from solutions at Lobatto wavelengths, of which the polynomial's begin at `from`,
+// without the last terms that together change no value by more than `negligible`.
+[[nodiscard]] ChebyshevSum assembled(int degree, std::span<const std::vector<double>> solutions, std::size_t from,
+                                     double negligible);
 
 using ValueOf = std::function<double(const RayTable& table, std::size_t ray)>;
 

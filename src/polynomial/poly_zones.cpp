@@ -143,12 +143,8 @@ void read_polynomials_of(PolyReader& read, const CborNode& node, PolynomialZone&
     zone.stop.push_back(read_vector(read, &crossing));
     if (read.failed()) return;
   }
-  for (const CborNode& rim : read.list(node.find("rims"), "the rims", 0, kMaxRims)) {
-    const auto parts = read.list(&rim, "a rim", 2, 2);
-    if (read.failed()) return;
-    zone.rims.push_back({read.whole(&parts[0], "a rim's step", 0, 10'000), read_sum(read, &parts[1])});
-    if (read.failed()) return;
-  }
+  zone.rims = read_rims(read, node.find("rims"));
+  if (read.failed()) return;
   zone.transmittance = read_sum(read, node.find("transmittance"));
 }
 
@@ -166,12 +162,10 @@ CborNode zone_node(const PolynomialZone& zone) {
            cbor_list({cbor_number(zone.centre_mm), cbor_number(zone.centre_slope_mm), cbor_number(zone.radius_mm)}));
   node.add("bounds", node_of(zone.bounds));
   node.add("sensor", node_of(zone.sensor_mm));
-  CborNode stop = cbor_list(), rims = cbor_list();
+  CborNode stop = cbor_list();
   for (const ChebyshevVector& crossing : zone.stop) stop.list.push_back(node_of(crossing));
-  for (const PolynomialRim& rim : zone.rims)
-    rims.list.push_back(cbor_list({cbor_number(rim.step), node_of(rim.squared)}));
   node.add("stop", std::move(stop));
-  node.add("rims", std::move(rims));
+  node.add("rims", rims_node(zone.rims));
   node.add("transmittance", node_of(zone.transmittance));
   return node;
 }
@@ -191,6 +185,29 @@ PolynomialZone read_zone(PolyReader& read, const CborNode& node) {
   zone.accuracy = read_accuracy(read, node.find("accuracy"));
   if (!read.failed() && zone.state == PolynomialZone::State::Fitted) read_polynomials_of(read, node, zone);
   return zone;
+}
+
+CborNode polynomial_node(const ChebyshevSum& sum) { return node_of(sum); }
+CborNode vector_node(const ChebyshevVector& vector) { return node_of(vector); }
+
+CborNode rims_node(const std::vector<PolynomialRim>& rims) {
+  CborNode node = cbor_list();
+  for (const PolynomialRim& rim : rims) node.list.push_back(cbor_list({cbor_number(rim.step), node_of(rim.squared)}));
+  return node;
+}
+
+ChebyshevSum read_polynomial(PolyReader& read, const CborNode* node) { return read_sum(read, node); }
+ChebyshevVector read_polynomial_vector(PolyReader& read, const CborNode* node) { return read_vector(read, node); }
+
+std::vector<PolynomialRim> read_rims(PolyReader& read, const CborNode* node) {
+  std::vector<PolynomialRim> rims;
+  for (const CborNode& rim : read.list(node, "the rims", 0, kMaxRims)) {
+    const auto parts = read.list(&rim, "a rim", 2, 2);
+    if (read.failed()) break;
+    rims.push_back({read.whole(&parts[0], "a rim's step", 0, 10'000), read_sum(read, &parts[1])});
+    if (read.failed()) break;
+  }
+  return rims;
 }
 
 CborNode ghost_name_node(const Ghost& ghost) {

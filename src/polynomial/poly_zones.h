@@ -58,6 +58,14 @@ class PolyReader {
 [[nodiscard]] CborNode zone_node(const PolynomialZone& zone);
 [[nodiscard]] PolynomialZone read_zone(PolyReader& read, const CborNode& node);
 
+// A polynomial and a vector alone, and the squared heights at rims.
+[[nodiscard]] CborNode polynomial_node(const ChebyshevSum& sum);
+[[nodiscard]] CborNode vector_node(const ChebyshevVector& vector);
+[[nodiscard]] CborNode rims_node(const std::vector<PolynomialRim>& rims);
+[[nodiscard]] ChebyshevSum read_polynomial(PolyReader& read, const CborNode* node);
+[[nodiscard]] ChebyshevVector read_polynomial_vector(PolyReader& read, const CborNode* node);
+[[nodiscard]] std::vector<PolynomialRim> read_rims(PolyReader& read, const CborNode* node);
+
 // [i, j, k, l, order x, order y].
 [[nodiscard]] CborNode ghost_name_node(const Ghost& ghost);
 [[nodiscard]] Ghost read_ghost_name(PolyReader& read, const CborNode* node);

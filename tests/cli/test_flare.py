@@ -363,6 +363,32 @@ class PolynomialRange(ProgramTest):
         self.assertIn("polynomial at", self.error_of("polynomial", "export", "a.poly", "-o", "c.py", code=1))
 
 
+class DirectImage(ProgramTest):
+    """Camera rays as polynomials: fitted, described, exported."""
+
+    def text_in(self, name):
+        return (self.folder / name).read_text()
+
+    def test_direct_image(self):
+        lens = ("cooke-triplet", "--focus", "2m")
+        self.run_program("polynomial", "fit", *lens, "--direct", "-o", "a.poly")
+        info = json.loads(self.run_program("polynomial", "info", "a.poly", "--json").stdout)
+        self.assertEqual(info["kind"], "direct")
+        self.assertLess(info["sensor_p95_px"], 0.05)
+        self.assertIn(b"the direct image, order", self.run_program("polynomial", "info", "a.poly").stdout)
+        for ending, text in (("c", "int lens_ray("), ("glsl", "bool lens_ray("), ("hlsl", "bool lens_sensor("),
+                             ("py", "def lens_ray(")):
+            self.run_program("polynomial", "export", "a.poly", "-o", f"all.{ending}")
+            self.run_program("polynomial", "export", "a.poly", "--wavelength", "550", "-o", f"one.{ending}")
+            self.assertIn(text, self.text_in(f"one.{ending}"))
+            self.assertLess(len(self.text_in(f"one.{ending}")), len(self.text_in(f"all.{ending}")))
+        self.assertIn("no ghosts", self.error_of("polynomial", "export", "a.poly", "--ghost", "1-2", "-o", "b.c", code=1))
+        self.assertIn("not a file of polynomials", self.error_of("polynomial", "at", "a.poly", *lens, "-o", "b.poly", code=1))
+        self.error_of("polynomial", "fit", *lens, "--direct", "--focus-range", "2000,inf", "-o", "b.poly", code=2)
+        self.assertIn("symmetry", self.error_of("polynomial", "fit", "schneider-anamorphic-31", "--direct", "-o", "b.poly",
+                                                code=1))
+
+
 class HullinBench(ProgramTest):
     """hullin2011's figures, as small as they still show what they are about."""
 

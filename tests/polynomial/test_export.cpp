@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/expert/polynomial.h"
+#include "polynomial/zone_rays.h"
 
 using namespace contrejour;
 
@@ -88,6 +89,12 @@ void check_printed(const std::string& file) {
       CHECK(values[3] == doctest::Approx(ray.stop[0].y).epsilon(1e-9));
       CHECK(std::sqrt(values[8]) == doctest::Approx(ray.relative_height).epsilon(1e-9));
       CHECK(values[9] == doctest::Approx(ray.transmittance).epsilon(1e-9));
+      std::array<double, 3> bounds{};
+      for (double& value : bounds) REQUIRE(static_cast<bool>(printed >> value));
+      const PolynomialBounds expected = polynomial::bounds_between(*zone, field);
+      CHECK(bounds[0] == doctest::Approx(expected.low_x_mm));
+      CHECK(bounds[1] == doctest::Approx(expected.high_x_mm));
+      CHECK(bounds[2] == doctest::Approx(expected.half_y_mm));
       ++compared;
     }
   }
@@ -103,13 +110,14 @@ TEST_CASE("exported C compiles and gives the library's values") {
   }
   const auto code = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::C);
   REQUIRE(code.has_value());
-  std::string main = "#include <stdio.h>\nint main(void) {\n  double o[10];\n";
+  std::string main = "#include <stdio.h>\nint main(void) {\n  double o[13];\n";
   for (std::size_t g = 0; g < fitted_ghosts().size(); ++g)
     for (const auto& [field, x, y, lambda_nm] : kRays)
       main += fmt::format(
           "  if (!flare_ray({}, {}, {}, {}, {}, o)) puts(\"0\");\n  else {{ printf(\"1\"); for (int i = 0; "
-          "i < 10; ++i) printf(\" %.17g\", o[i]); puts(\"\"); }}\n",
-          g, field, x, y, lambda_nm);
+          "i < 10; ++i) printf(\" %.17g\", o[i]); flare_bounds({}, {}, o + 10); printf(\" %.17g %.17g %.17g\\n\", "
+          "o[10], o[11], o[12]); }}\n",
+          g, field, x, y, lambda_nm, g, field);
   const Folder folder;
   folder.write("ghosts.c", *code + main + "  return 0;\n}\n");
   REQUIRE(runs(fmt::format("cc -std=c99 -Wall -Werror -O0 {} -o {}", folder.file("ghosts.c"), folder.file("ghosts"))));
@@ -127,16 +135,17 @@ TEST_CASE("exported Python gives the library's values") {
   std::string calls;
   for (std::size_t g = 0; g < fitted_ghosts().size(); ++g)
     for (const auto& [field, x, y, lambda_nm] : kRays)
-      calls +=
-          fmt::format("r = flare_ray({}, {}, {}, {}, {})\nprint(0 if r is None else '1 ' + ' '.join(map(repr, r)))\n",
-                      g, field, x, y, lambda_nm);
+      calls += fmt::format(
+          "r = flare_ray({}, {}, {}, {}, {})\nb = flare_bounds({}, {}) or [0, 0, 0]\n"
+          "print(0 if r is None else '1 ' + ' '.join(map(repr, r + b)))\n",
+          g, field, x, y, lambda_nm, g, field);
   const Folder folder;
   folder.write("ghosts.py", *code + "\n\n" + calls);
   REQUIRE(std::system(fmt::format("python3 {} > {}", folder.file("ghosts.py"), folder.file("out")).c_str()) == 0);
   check_printed(folder.file("out"));
 }
 
-TEST_CASE("exported GLSL compiles") {
+TEST_CASE("exported GLSL and HLSL compile") {
   if (!runs("glslangValidator --version")) {
     MESSAGE("skipped: there is no glslangValidator");
     return;
@@ -148,6 +157,20 @@ TEST_CASE("exported GLSL compiles") {
                                   "out vec4 colour;\nvoid main() {\n  float r[10];\n  bool ok = flare_ray(0, 0.1, 1.0, "
                                   "0.5, 550.0, r);\n  colour = ok ? vec4(r[0], r[1], r[8], r[9]) : vec4(0.0);\n}\n");
   CHECK(runs("glslangValidator " + folder.file("ghosts.frag")));
+  folder.write("buffer.frag",
+               "#version 430\nlayout(std430, binding = 0) buffer In { float numbers[]; };\n"
+               "#define flare_COEFFICIENT(i) numbers[i]\n" +
+                   *code +
+                   "out vec4 colour;\nvoid main() {\n  float r[10];\n  colour = flare_ray(0, 0.1, 1.0, 0.5, "
+                   "550.0, r) ? vec4(r[0]) : vec4(0.0);\n}\n");
+  CHECK(runs("glslangValidator " + folder.file("buffer.frag")));
+  const auto hlsl = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::Hlsl);
+  REQUIRE(hlsl.has_value());
+  folder.write("ghosts.hlsl",
+               *hlsl +
+                   "float4 main() : SV_Target {\n  float r[10];\n  bool ok = flare_ray(0, 0.1, 1.0, 0.5, "
+                   "550.0, r);\n  return ok ? float4(r[0], r[1], r[8], r[9]) : 0.0;\n}\n");
+  CHECK(runs("glslangValidator -D -V -S frag -e main -o /dev/null " + folder.file("ghosts.hlsl")));
 }
 
 TEST_CASE("a ghost that the fit does not have and a wrong prefix are refused") {

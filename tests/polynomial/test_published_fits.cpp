@@ -12,6 +12,7 @@
 
 #include "contrejour/expert/published_fits.h"
 #include "contrejour/expert/published_samples.h"
+#include "contrejour/expert/trace.h"
 
 using namespace contrejour;
 using namespace contrejour::published;

@@ -326,6 +326,40 @@ class RaysTest(unittest.TestCase):
             contrejour.trace(state, origins, directions, ghost=(1, 40))
 
 
+class DirectPolynomialsTest(unittest.TestCase):
+    def test_rays_and_back(self):
+        fit = contrejour.fit_direct_polynomials(LENS, focus=2000)
+        random = np.random.default_rng(3)
+        sensor, stop = random.uniform(-8, 8, (50, 2)), random.uniform(-0.6, 0.6, (50, 2))
+        rays = fit.rays(sensor, stop, 500)
+        traced = contrejour.trace(LENS, rays.origin_mm, -rays.direction, lambda_nm=500, focus=2000)
+        np.testing.assert_allclose(traced.sensor_mm, sensor, atol=36 / 1920)
+        np.testing.assert_allclose(rays.transmittance, traced.transmission, rtol=2e-3)
+        points = rays.origin_mm + 1500 * rays.direction
+        np.testing.assert_allclose(fit.sensor_points(points, stop, 500), sensor, atol=1e-6)
+        np.testing.assert_allclose(fit.sensor_points(rays.direction, stop, 500, distant=True), sensor, atol=1e-6)
+        self.assertTrue(np.isnan(fit.rays([[1000, 0]], [[0, 0]]).weight).all())
+        self.assertLess(fit.accuracy["sensor_p95_px"], 0.05)
+
+    def test_file_and_source(self):
+        fit = contrejour.fit_direct_polynomials(LENS, max_order=5)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "a.poly")
+            fit.at_wavelength(550).write(file)
+            again = contrejour.read_direct_polynomials(file)
+        names: dict = {}
+        exec(again.source("python"), names)
+        ray, rays = names["lens_ray"](3.0, 4.0, 0.2, 0.1, 550), again.rays([[3, 4]], [[0.2, 0.1]])
+        np.testing.assert_allclose(ray[:6], [*rays.origin_mm[0], *rays.direction[0]], atol=1e-12)
+        self.assertIn("bool lens_sensor", again.source("hlsl"))
+        with self.assertRaises(ValueError):
+            again.source("fortran")
+        with self.assertRaisesRegex(ValueError, "shape"):
+            again.rays([1, 2], [0, 0])
+        with self.assertRaises(contrejour.UnsupportedError):
+            contrejour.fit_direct_polynomials("schneider-anamorphic-31")
+
+
 class PolynomialsTest(unittest.TestCase):
     ONLY = {"only": [(1, 2), (3, 6)], "max_order": 9}
 

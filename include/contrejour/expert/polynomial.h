@@ -138,14 +138,20 @@ struct PolynomialRay {
 [[nodiscard]] CONTREJOUR_API PolynomialRay evaluate(const LensPolynomials& polynomials, const PolynomialZone& zone,
                                                     double field, Vec2 entrance_mm, double lambda_nm);
 
-// Source code that evaluates ghosts' polynomials without this library: C99, GLSL 3.30 or later, or Python 3. It defines
+// Source code that evaluates ghosts' polynomials without this library: C99, GLSL 3.30 or later, HLSL of Shader Model 4
+// or later, or Python 3. It defines
 //   ray(ghost, field, x_mm, y_mm, lambda_nm): the index of the ghost in `ghosts`, the tangent of the light's angle, the
 // point of the entrance plane and the wavelength. The result is 10 numbers: the sensor's x and y in mm, x and y at
-// three crossings of the stop in widest radii, the largest squared relative height, and the transmittance; in C and
-// GLSL they are written to an array, and the function returns whether the ghost is fitted at that field; Python returns
-// None where it is not. Names begin with `prefix`. Errors: InvalidArgument for a ghost that the fit does not have, and
-// for a prefix that is no identifier. Accuracy: that of the fit; GLSL in float, the others in double.
-enum class PolynomialLanguage : std::uint8_t { C, Glsl, Python };
+// three crossings of the stop in widest radii, the largest squared relative height, and the transmittance; in C, GLSL
+// and HLSL they are written to an array, and the function returns whether the ghost is fitted at that field; Python
+// returns None where it is not.
+//   bounds(ghost, field): 3 numbers in the same way, the lowest and highest x and half the height of the part of the
+// entrance plane in which the ghost's light enters, with a margin. In GLSL and HLSL a program that defines the macro
+// COEFFICIENT(i), with the prefix, before the code has no table of coefficients, which it then reads from a buffer of
+// its own: C has them as an array. Names begin with `prefix`. Errors: InvalidArgument for a ghost that the fit does not
+// have, and for a prefix that is no identifier. Accuracy: that of the fit; GLSL and HLSL in float, the others in
+// double.
+enum class PolynomialLanguage : std::uint8_t { C, Glsl, Hlsl, Python };
 [[nodiscard]] CONTREJOUR_API Result<std::string> export_polynomials(const LensPolynomials& polynomials,
                                                                     const std::vector<Ghost>& ghosts,
                                                                     PolynomialLanguage language,
