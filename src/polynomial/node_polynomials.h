@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "polynomial/fit_rays.h"
@@ -14,6 +15,16 @@ namespace contrejour::inline internal::polynomial {
 
 // Every third wavelength suffices for positions, which vary less than transmittances.
 inline constexpr int kWavelengthStep = 3;
+
+inline constexpr double kSamplesPerUnknown = 2.0;
+// Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
+// of them. Without a ridge their coefficients grow until float cannot hold the differences.
+inline constexpr double kRidge = 1e-7;
+
+// Coefficients by wavelength terms from solutions at Lobatto wavelengths, `count` terms of them from one on, without
+// the last wavelength terms that together change no value by more than `negligible`.
+[[nodiscard]] ChebyshevSum assembled(int degree, std::size_t count, std::span<const std::vector<double>> solutions,
+                                     std::size_t from, double negligible);
 
 // Weighted rows of the basis at the rays: for scalars, or for both coordinates of vectors.
 class Systems {
