@@ -36,8 +36,8 @@ const AsymmetricSystems::One& AsymmetricSystems::system(const WeightedRays& weig
   one.terms = static_cast<std::size_t>(asymmetric_term_count(degree_, parities));
   const std::size_t rays = weighted.used.size();
   if (static_cast<double>(rays) < kSamplesPerUnknown * static_cast<double>(one.terms)) return one;
-  const std::size_t wanted =
-      std::min(rays, std::max(kLeastRows, static_cast<std::size_t>(kRowsPerAsymmetricUnknown * static_cast<double>(one.terms))));
+  const std::size_t wanted = std::min(
+      rays, std::max(kLeastRows, static_cast<std::size_t>(kRowsPerAsymmetricUnknown * static_cast<double>(one.terms))));
   Rows rows{one.terms, {}};
   rows.values.resize(wanted * one.terms);
   for (std::size_t row = 0; row < wanted; ++row) {
