@@ -44,14 +44,14 @@ struct ScalarOutput {
 };
 
 struct PointOutputs {
-  std::span<const VectorOutput> vectors;
-  std::span<const ScalarOutput> rims;  // squared relative heights
+  std::span<const VectorOutput> vectors = {};
+  std::span<const ScalarOutput> rims = {};  // squared relative heights
   // The largest of the rims' and of distances from the stop's centre times stop_scale; null: not wanted. The crossings
   // of the stop are the last `crossings` vectors.
   float* relative_height = nullptr;
   std::size_t crossings = 0;
   float stop_scale = 0.0F;
-  ScalarOutput transmittance;  // 0 to largest_transmittance
+  ScalarOutput transmittance = {};  // 0 to largest_transmittance
   float largest_transmittance = 0.0F;
 };
 
