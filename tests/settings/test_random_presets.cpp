@@ -162,7 +162,7 @@ TEST_CASE("each end of each range, all else as usual [slow]") {
         std::string rest = "method = \"" + std::string(method) + "\"\n";
         if (p.name != "grid") rest += "grid = 24\n";
         if (p.name != "density") rest += "density = 0.1\n";
-        if (p.name == "points") rest += "wavelengths = \"1\"\n";  // a second of 67 million points for each
+        if (p.name == "points") rest += "wavelengths = \"1\"\n";  // 67 million points take a second for each
         // Ghosts do not differ in what the table's values do to them; all of them by the other methods take a minute.
         if (method != "adaptive" && p.name != "select") rest += "select = \"list:2-5\"\n";
         renders(text + rest, "heliar");
