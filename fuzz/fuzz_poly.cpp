@@ -50,6 +50,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const double traced = traced_flux_fraction(*read);
   demand(traced >= 0.0 && traced <= 1.0);
   for (const GhostPolynomials& ghost : read->ghosts)
+    for (const AsymmetricZone& zone : ghost.asymmetric) {
+      demand(area_of(ghost, zone) > 0.0);
+      static_cast<void>(evaluate(*read, ghost, zone.high, {0.1, 0.2}, 550.0));
+    }
+  for (const GhostPolynomials& ghost : read->ghosts)
     for (const PolynomialZone& zone : ghost.zones)
       if (zone.state == PolynomialZone::State::Fitted)
         static_cast<void>(evaluate(*read, zone, zone.field_high, {0.1, 0.2}, 550.0));

@@ -24,7 +24,7 @@ constexpr const char* kUsualSize = "320x180";
 
 struct FlickerOptions {
   std::string json;
-  int frames = 200;
+  FlickerFrames frames;
   std::vector<std::string> systems, effects;
   params::Values values;
 };
@@ -50,14 +50,14 @@ Result<std::vector<Flicker>> measure_all(const FlickerOptions& options) {
 }
 
 std::string flicker_text(const std::vector<Flicker>& all, double error) {
-  TextTable table({"<system", "<effects", "rendered", "fine", "difference", "of the error", "mean", "unclipped",
-                   "pixel", "flux", "fine flux"});
+  TextTable table({"<system", "<effects", "rendered", "fine", "difference", "of the error", "frame", "mean",
+                   "unclipped", "pixel", "flux", "fine flux"});
   for (const Flicker& one : all)
     table.add({one.system, one.effects, fmt::format("{:.5f}", one.rendered), fmt::format("{:.5f}", one.fine),
                fmt::format("{:.5f}", one.difference), fmt::format("{:.2f}", one.difference / error),
-               fmt::format("{:.5f}", one.mean_difference), fmt::format("{:.5f}", one.unclipped),
-               fmt::format("{:.3f}", one.pixel_difference), fmt::format("{:.5f}", one.flux),
-               fmt::format("{:.5f}", one.fine_flux)});
+               fmt::format("{}", one.worst_frame), fmt::format("{:.5f}", one.mean_difference),
+               fmt::format("{:.5f}", one.unclipped), fmt::format("{:.3f}", one.pixel_difference),
+               fmt::format("{:.5f}", one.flux), fmt::format("{:.5f}", one.fine_flux)});
   return table.text();
 }
 
@@ -67,6 +67,7 @@ Json flicker_json(const std::vector<Flicker>& all, double error) {
     json.push_back({{"system", one.system},
                     {"effects", one.effects},
                     {"frames", one.frames},
+                    {"worst_frame", one.worst_frame},
                     {"error", error},
                     {"rendered", one.rendered},
                     {"fine", one.fine},
@@ -105,7 +106,8 @@ void add_bench_flicker(CLI::App& bench, Action& action) {
   CLI::App* command =
       bench.add_subcommand("flicker", "measure whether the flare of a light that moves slowly flickers");
   add_output(*command, "--json", options->json, {".json"}, "write all figures to this file");
-  add_number(*command, "--frames", options->frames, 3, 100000, "number of frames, a tenth of a pixel apart");
+  add_number(*command, "--frames", options->frames.count, 3, 100000, "number of frames, a tenth of a pixel apart");
+  add_number(*command, "--first", options->frames.first, 0, 100000, "frame of the shot to begin with");
   command->add_option("--systems", options->systems, "heliar, itoh, nikon, canon-135, canon-200 (default: all)")
       ->delimiter(',')
       ->option_text("LIST");

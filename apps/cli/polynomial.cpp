@@ -65,7 +65,10 @@ struct PolynomialSummary {
   double flux = 0.0, traced_flux = 0.0;  // weighted by the zones' areas
 
   void add(const PolynomialZone& zone, double weight) {
-    const double area = zone.field_high * zone.field_high - zone.field_low * zone.field_low;
+    add(zone, weight, zone.field_high * zone.field_high - zone.field_low * zone.field_low);
+  }
+  // A zone of either kind.
+  void add(const auto& zone, double weight, double area) {
     flux += weight * zone.flux_mm2 * area;
     if (zone.state == PolynomialZone::State::Traced) {
       ++traced;
@@ -92,6 +95,8 @@ FitSummary fit_summary(const LensPolynomials& fit) {
   FitSummary summary{fit, traced_flux_fraction(fit), {}, {}};
   for (const GhostPolynomials& ghost : fit.ghosts) {
     PolynomialSummary& row = summary.ghosts.emplace_back(PolynomialSummary{.ghost = ghost_name(ghost.ghost)});
+    for (const AsymmetricZone& zone : ghost.asymmetric) row.add(zone, 1.0, area_of(ghost, zone));
+    if (!ghost.asymmetric.empty()) continue;
     for (const PolynomialZone& zone : ghost.zones) row.add(zone, 1.0);
   }
   return summary;

@@ -119,7 +119,11 @@ class Polynomials:
     def written(self) -> bytes: ...
     def at(self, lens: LensState) -> Polynomials: ...
     def evaluate(
-        self, ghost: Sequence[int], field: float, entrance_mm: np.ndarray, lambda_nm: float
+        self,
+        ghost: Sequence[int],
+        field: float | tuple[float, ...],
+        entrance_mm: np.ndarray,
+        lambda_nm: float,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]: ...
 
 class DirectPolynomials:

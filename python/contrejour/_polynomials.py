@@ -72,7 +72,7 @@ class Polynomials:
     @property
     def ghosts(self) -> dict[tuple[int, ...], list[dict[str, Any]]]:
         """The zones of the field of each ghost, by its surfaces: their state ("fitted", "traced" or "dark"), the
-        tangents at which they begin and end, order, the errors of rays that were left out of the fit, and flux. Those of
+        tangents at which they begin and end (of ghosts without axial symmetry, the lowest x and y and the highest), order, the errors of rays that were left out of the fit, and flux. Those of
         a range are its zones at all nodes."""
         return dict(self._native.ghosts())
 
@@ -81,14 +81,24 @@ class Polynomials:
         return Polynomials(self._native.at(configured(lens, None, parameters)._native))
 
     def evaluate(
-        self, ghost: Sequence[int], field_deg: float, entrance_mm: ArrayLike, lambda_nm: float = 587.56
+        self,
+        ghost: Sequence[int],
+        field_deg: Union[float, tuple[float, float]],
+        entrance_mm: ArrayLike,
+        lambda_nm: float = 587.56,
     ) -> PolynomialRays:
         """The rays of a distant light through n points (n, 2) of the entrance plane, in the light's meridional frame.
+        For a ghost without axial symmetry, field_deg is a pair, the angles whose tangents are the direction's x / z and
+        y / z, and the frame is the lens's.
 
         Errors: ValueError for a fit of a range, and where the ghost has no polynomials at that angle.
         """
         points = np.asarray(entrance_mm, dtype=float)
-        field = math.tan(math.radians(field_deg))
+        field: Union[float, tuple[float, ...]]
+        if isinstance(field_deg, tuple):
+            field = tuple(math.tan(math.radians(angle)) for angle in field_deg)
+        else:
+            field = math.tan(math.radians(field_deg))
         return PolynomialRays(*self._native.evaluate(list(ghost), field, points, lambda_nm))
 
     def write(self, file: Union[str, "os.PathLike[str]"]) -> None:

@@ -97,13 +97,26 @@ py::dict dict_of(const PolynomialZone& zone) {
   return fields;
 }
 
+py::dict dict_of(const AsymmetricZone& zone) {
+  PolynomialZone common;
+  common.state = zone.state;
+  common.order = zone.order;
+  common.accuracy = zone.accuracy;
+  common.flux_mm2 = zone.flux_mm2;
+  py::dict fields = dict_of(common);
+  fields["field"] = py::make_tuple(zone.low.x, zone.low.y, zone.high.x, zone.high.y);
+  return fields;
+}
+
 // (surfaces, zones) of each ghost; of a range, the zones of all its spans at their nodes.
 py::list ghosts_of(const AnyFit& fit) {
   py::list all;
   if (fit.state) {
     for (const GhostPolynomials& ghost : fit.state->ghosts) {
       py::list zones;
-      for (const PolynomialZone& zone : ghost.zones) zones.append(dict_of(zone));
+      for (const AsymmetricZone& zone : ghost.asymmetric) zones.append(dict_of(zone));
+      if (ghost.asymmetric.empty())
+        for (const PolynomialZone& zone : ghost.zones) zones.append(dict_of(zone));
       all.append(py::make_tuple(surfaces_of(ghost.ghost), zones));
     }
     return all;
@@ -118,26 +131,32 @@ py::list ghosts_of(const AnyFit& fit) {
   return all;
 }
 
-const PolynomialZone& fitted_zone(const AnyFit& fit, const std::vector<int>& surfaces, double field) {
+constexpr const char* kNotFitted = "the ghost is not fitted at this field: it is dark, or must be traced";
+
+const GhostPolynomials& fitted_ghost(const AnyFit& fit, const std::vector<int>& surfaces) {
   if (!fit.state) throw py::value_error("this is a fit of a range; choose a state of it with at()");
   const auto ghost = ghost_of(surfaces);
   const auto& ghosts = fit.state->ghosts;
   const auto found = ghost ? std::ranges::find(ghosts, *ghost, &GhostPolynomials::ghost) : ghosts.end();
   if (found == ghosts.end()) throw py::value_error("the fit has no such ghost");
-  const PolynomialZone* const zone = find_zone(*found, field);
-  if (zone == nullptr || zone->state != PolynomialZone::State::Fitted)
-    throw py::value_error("the ghost is not fitted at this field: it is dark, or must be traced");
+  return *found;
+}
+
+const PolynomialZone& fitted_zone(const GhostPolynomials& ghost, double field) {
+  if (!ghost.asymmetric.empty())
+    throw py::value_error("the ghost has no axial symmetry: give the tangents of the field, as (x, y)");
+  const PolynomialZone* const zone = find_zone(ghost, field);
+  if (zone == nullptr || zone->state != PolynomialZone::State::Fitted) throw py::value_error(kNotFitted);
   return *zone;
 }
 
 using PointArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// Arrays: sensor (n, 2), stop (n, crossings, 2), relative height (n,), transmittance (n,).
-py::tuple evaluated(const AnyFit& fit, const std::vector<int>& surfaces, double field, const PointArray& entrance_mm,
-                    double lambda_nm) {
-  const PolynomialZone& zone = fitted_zone(fit, surfaces, field);
+// Arrays: sensor (n, 2), stop (n, crossings, 2), relative height (n,), transmittance (n,). ray_at: of a point.
+template <class RayAt>
+py::tuple evaluated_at(const PointArray& entrance_mm, std::size_t crossing_count, const RayAt& ray_at) {
   if (entrance_mm.ndim() != 2 || entrance_mm.shape(1) != 2) throw py::value_error("entrance_mm must have shape (n, 2)");
-  const py::ssize_t count = entrance_mm.shape(0), crossings = static_cast<py::ssize_t>(zone.stop.size());
+  const py::ssize_t count = entrance_mm.shape(0), crossings = static_cast<py::ssize_t>(crossing_count);
   py::array_t<double> sensor({count, py::ssize_t{2}}), stop({count, crossings, py::ssize_t{2}}), height(count),
       transmittance(count);
   const auto from = entrance_mm.unchecked<2>();
@@ -146,7 +165,7 @@ py::tuple evaluated(const AnyFit& fit, const std::vector<int>& surfaces, double 
   auto to_height = height.mutable_unchecked<1>();
   auto to_transmittance = transmittance.mutable_unchecked<1>();
   for (py::ssize_t k = 0; k < count; ++k) {
-    const PolynomialRay ray = evaluate(*fit.state, zone, field, {from(k, 0), from(k, 1)}, lambda_nm);
+    const PolynomialRay ray = ray_at(Vec2{from(k, 0), from(k, 1)});
     to_sensor(k, 0) = ray.sensor_mm.x;
     to_sensor(k, 1) = ray.sensor_mm.y;
     for (py::ssize_t c = 0; c < crossings; ++c) {
@@ -157,6 +176,35 @@ py::tuple evaluated(const AnyFit& fit, const std::vector<int>& surfaces, double 
     to_transmittance(k) = ray.transmittance;
   }
   return py::make_tuple(sensor, stop, height, transmittance);
+}
+
+// In the light's meridional frame.
+py::tuple evaluated(const AnyFit& fit, const std::vector<int>& surfaces, double field, const PointArray& entrance_mm,
+                    double lambda_nm) {
+  const PolynomialZone& zone = fitted_zone(fitted_ghost(fit, surfaces), field);
+  return evaluated_at(entrance_mm, zone.stop.size(),
+                      [&](Vec2 at) { return evaluate(*fit.state, zone, field, at, lambda_nm); });
+}
+
+// In the lens's frame, for ghosts without axial symmetry.
+py::tuple evaluated_asymmetric(const AnyFit& fit, const std::vector<int>& surfaces,
+                               const std::pair<double, double>& field, const PointArray& entrance_mm,
+                               double lambda_nm) {
+  const GhostPolynomials& ghost = fitted_ghost(fit, surfaces);
+  const Vec2 tangents{field.first, field.second};
+  const AsymmetricZone* const zone = find_zone(ghost, tangents).zone;
+  if (zone == nullptr || zone->state != PolynomialZone::State::Fitted) throw py::value_error(kNotFitted);
+  return evaluated_at(entrance_mm, zone->stop.size(),
+                      [&](Vec2 at) { return *evaluate(*fit.state, ghost, tangents, at, lambda_nm); });
+}
+
+// field: a tangent, or those of both axes.
+py::tuple evaluated_for(const AnyFit& fit, const std::vector<int>& surfaces,
+                        const std::variant<double, std::pair<double, double>>& field, const PointArray& entrance_mm,
+                        double lambda_nm) {
+  if (const auto* const one = std::get_if<double>(&field))
+    return evaluated(fit, surfaces, *one, entrance_mm, lambda_nm);
+  return evaluated_asymmetric(fit, surfaces, std::get<std::pair<double, double>>(field), entrance_mm, lambda_nm);
 }
 
 const LensPolynomials& common_of(const AnyFit& fit) { return fit.state ? *fit.state : fit.range->common; }
@@ -176,7 +224,7 @@ void add_polynomials(py::module_& module) {
       .def("ghosts", ghosts_of)
       .def("written", bytes_of)
       .def("at", fit_at, py::arg("lens"))
-      .def("evaluate", evaluated, py::arg("ghost"), py::arg("field"), py::arg("entrance_mm"), py::arg("lambda_nm"));
+      .def("evaluate", evaluated_for, py::arg("ghost"), py::arg("field"), py::arg("entrance_mm"), py::arg("lambda_nm"));
   module.def("fit_polynomials", fit_state, py::arg("lens"), py::arg("values"), py::arg("half_field_rad"),
              py::arg("max_order"), py::arg("ghosts"), py::arg("progress"), py::arg("cancel"));
   module.def("fit_polynomial_range", fit_range, py::arg("lens"), py::arg("values"), py::arg("variable"),

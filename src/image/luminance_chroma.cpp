@@ -20,7 +20,7 @@
 namespace contrejour::inline internal {
 namespace {
 
-constexpr std::array<const char*, 3> kNames = {"Y", "RY", "BY"};
+constexpr std::array<const char*, 3> kLuminanceChroma = {"Y", "RY", "BY"};
 constexpr int kReach = Imf::RgbaYca::N2;
 
 std::array<const PictureChannel*, 3> channels_of(const Picture& picture) {
@@ -140,9 +140,9 @@ Image rgb_of_luminance_chroma(const Picture& picture) {
       for (std::size_t i = 0; i < values.size(); ++i)
         encode_sample(SampleType::Half, Coding::Linear, values[i], halves[k].data() + 2 * i);
     }
-    header.channels().insert(kNames[k], Imf::Channel(Imf::HALF, channel.x_sampling, channel.y_sampling));
-    frame_buffer.insert(
-        kNames[k], Imf::Slice::Make(Imf::HALF, halves[k].data(), box, 0, 0, channel.x_sampling, channel.y_sampling));
+    header.channels().insert(kLuminanceChroma[k], Imf::Channel(Imf::HALF, channel.x_sampling, channel.y_sampling));
+    frame_buffer.insert(kLuminanceChroma[k], Imf::Slice::Make(Imf::HALF, halves[k].data(), box, 0, 0,
+                                                              channel.x_sampling, channel.y_sampling));
   }
   // OpenEXR converts chroma to colours only while reading a file, so a file is made in memory.
   std::vector<std::byte> bytes;

@@ -101,7 +101,7 @@ std::string write_direct_polynomials(const DirectPolynomials& polynomials) {
   root.add("direction", vector_node(polynomials.direction));
   root.add("inner", vector_node(polynomials.inner));
   root.add("rims", rims_node(polynomials.rims));
-  root.add("transmittance", polynomial_node(polynomials.transmittance));
+  root.add("transmittance", sum_node(polynomials.transmittance));
   return write_cbor(root);
 }
 

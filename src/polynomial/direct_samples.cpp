@@ -133,8 +133,9 @@ std::vector<ChebyshevVector> DirectSystem::vectors(int degree, std::span<const M
       }
       solutions.push_back(system.solve(right));
     }
-    vectors.push_back({assembled(degree, solutions, 0, negligible),
-                       assembled(degree, solutions, static_cast<std::size_t>(term_count(degree)), negligible)});
+    const auto count = static_cast<std::size_t>(term_count(degree));
+    vectors.push_back(
+        {assembled(degree, count, solutions, 0, negligible), assembled(degree, count, solutions, count, negligible)});
   }
   return vectors;
 }
@@ -143,7 +144,7 @@ ChebyshevSum DirectSystem::solved(int degree, const std::vector<std::vector<doub
   const LeastSquares system(matrix(degree, false), kSystemRidge);
   std::vector<std::vector<double>> solutions;
   for (const std::vector<double>& right : rights) solutions.push_back(system.solve(right));
-  return assembled(degree, solutions, 0, negligible);
+  return assembled(degree, static_cast<std::size_t>(term_count(degree)), solutions, 0, negligible);
 }
 
 }  // namespace contrejour::inline internal::polynomial

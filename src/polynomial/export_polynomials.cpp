@@ -69,6 +69,10 @@ Result<std::string> export_polynomials(const LensPolynomials& polynomials, const
     const auto found = std::ranges::find(polynomials.ghosts, ghost, &GhostPolynomials::ghost);
     if (found == polynomials.ghosts.end())
       return invalid_argument(fmt::format("the fit has no ghost {}", ghost_name(ghost)));
+    if (!found->asymmetric.empty())
+      return invalid_argument(
+          fmt::format("ghost {} has no axial symmetry; only ghosts of centred lenses of revolution are exported",
+                      ghost_name(ghost)));
     tables.add(*found);
   }
   const bool is_c = language == PolynomialLanguage::C;

@@ -6,7 +6,8 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr std::size_t kPowers = static_cast<std::size_t>(kMaxDegree) + 1;
+constexpr std::size_t kPowers = static_cast<std::size_t>(kMaxPowerDegree) + 1;
+static_assert(kMaxPowerDegree >= kMaxDegree && kMaxPowerDegree >= kMaxAsymmetricDegree);
 using Powers = std::array<std::array<double, kPowers>, kPowers>;
 
 // The coefficients of x^k in T_n, by n and k.
@@ -73,6 +74,41 @@ FieldSum::FieldSum(const PreparedSum& sum, double field_coordinate)
       add(to, from, count, static_cast<float>(by_u[static_cast<std::size_t>(u)]));
       from += count;
     }
+  }
+}
+
+FieldSum::FieldSum(const ChebyshevSum& sum, const Parities& parities, Vec2 s, const Mirroring& mirrored)
+    : degree(std::max(sum.degree, 0)) {
+  if (sum.degree < 0) return;
+  wavelength_terms = sum.wavelength_terms;
+  std::array<double, kPowers> sx{}, sy{};
+  chebyshev_values(s.x, sx);
+  chebyshev_values(s.y, sy);
+  const std::size_t pairs = count_of_pairs(degree);
+  coefficients.assign(pairs * static_cast<std::size_t>(wavelength_terms), 0.0F);
+  std::size_t from = 0;
+  for (int l = 0; l < wavelength_terms; ++l) {
+    std::vector<double> chebyshev(pairs), powers(pairs);
+    for_each_asymmetric_term(degree, parities, [&](int px, int py, int kx, int ky) {
+      chebyshev[static_cast<std::size_t>(power_index(px, py))] += static_cast<double>(sum.coefficients[from++]) *
+                                                                  sx[static_cast<std::size_t>(kx)] *
+                                                                  sy[static_cast<std::size_t>(ky)];
+    });
+    for (int px = 0; px <= degree; ++px)
+      for (int py = 0; px + py <= degree; ++py)
+        for (int j = px % 2; j <= px; j += 2)
+          for (int k = py % 2; k <= py; k += 2)
+            powers[static_cast<std::size_t>(power_index(j, k))] +=
+                chebyshev[static_cast<std::size_t>(power_index(px, py))] *
+                kChebyshev[static_cast<std::size_t>(px)][static_cast<std::size_t>(j)] *
+                kChebyshev[static_cast<std::size_t>(py)][static_cast<std::size_t>(k)];
+    for (int j = 0; j <= degree; ++j)
+      for (int k = 0; j + k <= degree; ++k) {
+        const int turns = (mirrored.x ? j : 0) + (mirrored.y ? k : 0) + (mirrored.value ? 1 : 0);
+        const bool turned = turns % 2 != 0;
+        const auto at = static_cast<std::size_t>(power_index(j, k));
+        coefficients[static_cast<std::size_t>(l) * pairs + at] = static_cast<float>(turned ? -powers[at] : powers[at]);
+      }
   }
 }
 

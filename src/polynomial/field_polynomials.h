@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "polynomial/asymmetric_basis.h"
 #include "polynomial/point_kernels.h"
 
 namespace contrejour::inline internal::polynomial {
@@ -34,9 +35,17 @@ struct PreparedZone {
   PreparedSum transmittance;
 };
 
+struct Mirroring {
+  bool x = false, y = false;  // the pupil point's coordinates
+  bool value = false;
+};
+
 // A PreparedSum at a field: its powers by wavelength term.
 struct FieldSum {
   FieldSum(const PreparedSum& sum, double field_coordinate);
+  // Of a zone without axial symmetry, at a direction's coordinates, in powers of the pupil point's x and y. mirrored:
+  // the sum of the mirror image, times -1 where that turns its values round.
+  FieldSum(const ChebyshevSum& sum, const Parities& parities, Vec2 s, const Mirroring& mirrored);
 
   [[nodiscard]] PowerSum at(double wavelength_coordinate) const;
 

@@ -11,25 +11,28 @@
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "polynomial/chebyshev_basis.h"
+#include "polynomial/fit_asymmetric.h"
 #include "polynomial/fit_field.h"
 
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr double kBeyondCorner = 1.1;  // of the tangent of the corner's angle
 constexpr double kPixelsAcross = 1920.0;
 constexpr int kMaxHalvings = 4;
 
+// Neither through an obscuration nor of an order of the sensor's grating.
+bool is_unobscured(const LensState& lens, const Ghost& ghost) {
+  return ghost.order == std::array<int, 2>{0, 0} && !ghost_path(lens, ghost, lens.design_wavelength_nm).obscured;
+}
+
 GhostPolynomials fit_ghost(const LensState& lens, const StepsByWavelength& steps, const LensPolynomials& all,
                            const PolynomialOptions& options, const Ghost& ghost) {
-  if (!is_fitted(lens, ghost)) {
-    PolynomialZone traced;
-    traced.state = PolynomialZone::State::Traced;
-    traced.field_high = all.max_field;
-    return {ghost, {traced}};
-  }
+  const bool symmetric = has_axial_symmetry(lens, ghost);
+  if (!is_unobscured(lens, ghost) || (!symmetric && !options.asymmetric)) return {ghost, {traced_zone(all)}};
   const GhostRays rays(lens, steps, ghost, all.entrance_z_mm);
   const Vec2 sensor_half_mm{0.5 * lens.sensor_width_mm, 0.5 * lens.sensor_height_mm};
+  if (!symmetric)
+    return fit_asymmetric_ghost({all, options, rays, sensor_half_mm}, lens, ghost, largest_tangents(lens, options));
   GhostPolynomials fitted{ghost, {}};
   for (auto& zone : fit_field({all, options, {{&rays, 1.0}}, {{&rays, {1.0}}}, sensor_half_mm}, all.max_field))
     fitted.zones.push_back(std::move(zone.front()));
@@ -88,9 +91,15 @@ Result<void> check_fit_options(const PolynomialOptions& options) {
   return {};
 }
 
+PolynomialZone traced_zone(const LensPolynomials& all) {
+  PolynomialZone traced;
+  traced.state = PolynomialZone::State::Traced;
+  traced.field_high = all.max_field;
+  return traced;
+}
+
 bool is_fitted(const LensState& lens, const Ghost& ghost) {
-  return has_axial_symmetry(lens, ghost) && ghost.order == std::array<int, 2>{0, 0} &&
-         !ghost_path(lens, ghost, lens.design_wavelength_nm).obscured;
+  return has_axial_symmetry(lens, ghost) && is_unobscured(lens, ghost);
 }
 
 Result<std::vector<Ghost>> ghosts_to_fit(const LensState& lens, const PolynomialOptions& options) {
@@ -170,6 +179,11 @@ Result<LensPolynomials> fit_polynomials(const LensState& lens, const PolynomialO
 double traced_flux_fraction(const LensPolynomials& polynomials) {
   double traced = 0.0, sum = 0.0;
   for (const GhostPolynomials& ghost : polynomials.ghosts) {
+    for (const AsymmetricZone& zone : ghost.asymmetric) {
+      const double flux = zone.flux_mm2 * area_of(ghost, zone);
+      sum += flux;
+      if (zone.state == PolynomialZone::State::Traced) traced += flux;
+    }
     for (const PolynomialZone& zone : ghost.zones) {
       const double flux = zone.flux_mm2 * (zone.field_high * zone.field_high - zone.field_low * zone.field_low);
       sum += flux;

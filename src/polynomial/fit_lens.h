@@ -15,6 +15,9 @@ namespace contrejour::inline internal::polynomial {
 [[nodiscard]] LensPolynomials without_ghosts(const LensState& lens, const PolynomialOptions& options);
 // Errors: a ghost that the lens does not have.
 [[nodiscard]] Result<std::vector<Ghost>> ghosts_to_fit(const LensState& lens, const PolynomialOptions& options);
+inline constexpr double kBeyondCorner = 1.1;  // the largest field, of the tangent of the corner's angle
+// The whole field as a zone that must be traced.
+[[nodiscard]] PolynomialZone traced_zone(const LensPolynomials& all);
 // False for ghosts without axial symmetry and those that pass an obscuration, which must be traced.
 [[nodiscard]] bool is_fitted(const LensState& lens, const Ghost& ghost);
 

@@ -18,15 +18,16 @@ constexpr int kRaysAtField = 96;
 constexpr double kFarthestLight = 1.2, kFarthestEdge = 2.0;
 constexpr double kFallLight = 48.0, kFallEdge = 48.0;
 constexpr double kFallElsewhere = 6.0;  // of rays that get through at one node of a range, and far from it at another
-constexpr double kNearSensor = 1.6;  // half diagonals: rays that land farther out count less
 // Squared relative heights next to an edge, wide enough that the few rays there show which rim is the outermost, and by
 // how much a rim must exceed the others.
 constexpr double kOpenLimit = 1.12, kBlockingRim = 0.88, kOutermostBy = 0.004;
 
+}  // namespace
+
 // A ray counts as at the node at which most of it gets through: between the nodes, light may be wherever it is at one
 // of them. A ray that fails at any node is left out.
 void weigh_rays(FitRays& rays, double near_mm) {
-  for (std::size_t ray = 0; ray < rays.points.size(); ++ray) {
+  for (std::size_t ray = 0; ray < rays.nodes.front().starts.size(); ++ray) {
     double clearance = kFailed, largest = 0.0, landing_mm = kFailed;
     for (const NodeRays& node : rays.nodes) {
       const double here = node.clearance(ray);
@@ -44,8 +45,6 @@ void weigh_rays(FitRays& rays, double near_mm) {
     if (clearance < kFarthestEdge) rays.for_edges.add(ray, falling(kFallEdge));
   }
 }
-
-}  // namespace
 
 FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zones) {
   FitRays out;

@@ -47,6 +47,10 @@ struct FitRays {
 // zones: with their bounds and pupil coordinates, one a node.
 [[nodiscard]] FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zones);
 
+// Sets for_light and for_edges from the nodes. near_mm: rays that land farther from the sensor's middle count less.
+void weigh_rays(FitRays& rays, double near_mm);
+inline constexpr double kNearSensor = 1.6;  // near_mm, in half diagonals of the sensor
+
 // Adds the steps whose rims block light that nothing else blocks: the one that blocks most comes first. table: at the
 // middle wavelength.
 void add_blocking_steps(const RayTable& table, std::vector<int>& steps);

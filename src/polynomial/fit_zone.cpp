@@ -22,13 +22,6 @@ struct Tolerated {
   double target = 0.0, accepted = 0.0;
 };
 
-// True if higher degrees cannot be expected to bring an error down to the accepted one, even if each of them lowers it
-// by twice as much as the last one did.
-bool is_hopeless(double p95, double before, int degrees_left, double accepted) {
-  constexpr double kBetterThanBefore = 0.5;
-  return p95 * std::pow(kBetterThanBefore * p95 / before, degrees_left) > accepted;
-}
-
 // The polynomial of the lowest degree whose errors reach the target, or else the best one.
 template <class Polynomials, class Fit, class Error>
 double raise_degree(const Systems& systems, int max_degree, const Tolerated& tolerated, Polynomials& best,
@@ -45,9 +38,6 @@ double raise_degree(const Systems& systems, int max_degree, const Tolerated& tol
   }
   return best_p95;
 }
-
-constexpr double kFractionOfEdge = 0.3, kFractionOfTransmittance = 0.25;  // targets, of the tolerances
-constexpr double kNegligible = 0.5;  // of a target: wavelength terms that are left out
 
 // The checks at all test states.
 class Checks {
@@ -236,6 +226,11 @@ std::vector<BoundsBetween> bounds_at_tests(const ZoneProblem& problem, std::span
 }
 
 }  // namespace
+
+bool is_hopeless(double p95, double before, int degrees_left, double accepted) {
+  constexpr double kBetterThanBefore = 0.5;
+  return p95 * std::pow(kBetterThanBefore * p95 / before, degrees_left) > accepted;
+}
 
 std::vector<PolynomialZone> fit_zone(const ZoneProblem& problem, double low, double high) {
   std::vector<PolynomialZone> zones;

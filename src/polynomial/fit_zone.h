@@ -28,6 +28,12 @@ struct ZoneProblem {
   Vec2 sensor_half_mm;
 };
 
+inline constexpr double kFractionOfEdge = 0.3, kFractionOfTransmittance = 0.25;  // targets, of the tolerances
+inline constexpr double kNegligible = 0.5;  // of a target: wavelength terms that are left out
+// True if higher degrees cannot be expected to bring an error down to the accepted one, even if each of them lowers it
+// by twice as much as the last one did.
+[[nodiscard]] bool is_hopeless(double p95, double before, int degrees_left, double accepted);
+
 // low, high: of the field, over the nodes' scales. The zone at each node: all have the same state, orders and rims.
 // Zones that do not reach the accuracy at all tests are Traced, without polynomials.
 [[nodiscard]] std::vector<PolynomialZone> fit_zone(const ZoneProblem& problem, double low, double high);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "polynomial/asymmetric_basis.h"
 #include "polynomial/zone_rays.h"
 
 namespace contrejour::inline internal::polynomial {
@@ -21,11 +22,19 @@ constexpr double kWidestStop = 1.03;
 constexpr float kAboveLargest = 1.5F;  // of the transmittance, for points between those of a grid
 constexpr float kReach = 1.2F;  // relative height: beyond, polynomials are free to grow
 
+Vec2 mirrored_by(const FoundAsymmetricZone& found, Vec2 v) {
+  return {found.mirrored_x ? -v.x : v.x, found.mirrored_y ? -v.y : v.y};
+}
+
 struct FieldVector {
   FieldSum along_field, along_pupil;
 
   FieldVector(const PreparedVector& vector, double field_coordinate)
       : along_field(vector.along_field, field_coordinate), along_pupil(vector.along_pupil, field_coordinate) {}
+  // Without axial symmetry: x and y instead.
+  FieldVector(const AsymmetricVector& vector, const AsymmetricZone& zone, Vec2 s, const FoundAsymmetricZone& found)
+      : along_field(vector.x, parities_of_x(zone), s, {found.mirrored_x, found.mirrored_y, found.mirrored_x}),
+        along_pupil(vector.y, parities_of_y(zone), s, {found.mirrored_x, found.mirrored_y, found.mirrored_y}) {}
 };
 
 struct PowerVector {
@@ -45,18 +54,32 @@ struct FieldPolynomials {
   std::vector<FieldVector> stop;
   std::vector<FieldSum> rims;
   FieldSum transmittance;
-  double h = 0.0, centre_mm = 0.0, radius_mm = 1.0;  // of pupil points
+  bool is_symmetric = true;
+  double h = 0.0;
+  Vec2 centre_mm, radius_mm{1.0, 1.0};  // of pupil points
   double stop_scale = 1.0;  // from the fit's stop radii to the requested ones
-  double shift_mm = 0.0;  // along x, from the requested entrance plane to the fit's
-  Rectangle upper_half;  // that light enters within
+  Vec2 shift_mm;  // from the requested entrance plane to the fit's
+  Rectangle region;  // that light enters within; its upper half where symmetric
 
   FieldPolynomials(const PreparedZone& prepared, const PolynomialZone& zone, double field)
       : sensor_mm(prepared.sensor_mm, field_coordinate(zone, field)),
         transmittance(prepared.transmittance, field_coordinate(zone, field)), h(field / zone.field_high),
-        centre_mm(centre_at(zone, field)), radius_mm(zone.radius_mm) {
+        centre_mm{centre_at(zone, field), 0.0}, radius_mm{zone.radius_mm, zone.radius_mm} {
     const double u = field_coordinate(zone, field);
     for (const PreparedVector& crossing : prepared.stop) stop.emplace_back(crossing, u);
     for (const PreparedSum& rim : prepared.rims) rims.emplace_back(rim, u);
+  }
+  // s: of the light or its mirror image in the zone.
+  FieldPolynomials(const FoundAsymmetricZone& found, Vec2 s)
+      : sensor_mm(found.zone->sensor_mm, *found.zone, s, found),
+        transmittance(found.zone->transmittance, parities_of_scalar(*found.zone), s,
+                      {found.mirrored_x, found.mirrored_y, false}),
+        is_symmetric(false), radius_mm(found.zone->radius_mm) {
+    const AsymmetricZone& zone = *found.zone;
+    centre_mm = mirrored_by(found, centre_at(zone, s));
+    for (const AsymmetricVector& crossing : zone.stop) stop.emplace_back(crossing, zone, s, found);
+    for (const PolynomialRim& rim : zone.rims)
+      rims.emplace_back(rim.squared, parities_of_scalar(zone), s, Mirroring{found.mirrored_x, found.mirrored_y, false});
   }
 };
 
@@ -121,14 +144,14 @@ class EvaluatedRays final : public RaySource {
     prepare_geometry();
     constexpr std::size_t kColumns = 8, kRows = 4, kCount = kColumns * kRows;
     std::array<float, kCount> x{}, y{}, height{}, transmittance{}, unused{};
-    const Vec2 size = field_.upper_half.high - field_.upper_half.low;
+    const Vec2 size = field_.region.high - field_.region.low;
     for (std::size_t k = 0; k < kCount; ++k) {
       x[k] = static_cast<float>(size.x * (static_cast<double>(k % kColumns) + 0.5) / kColumns);
       y[k] = static_cast<float>(size.y * (static_cast<double>(k / kColumns) + 0.5) / kRows);
     }
     for (VectorOutput& vector : vectors_) vector.x = vector.y = unused.data();
     for (ScalarOutput& rim : rim_outputs_) rim.values = nullptr;
-    evaluate_points(map_from(field_.upper_half.low), x.data(), y.data(), kCount,
+    evaluate_points(map_from(field_.region.low), x.data(), y.data(), kCount,
                     {.vectors = vectors_,
                      .rims = rim_outputs_,
                      .relative_height = height.data(),
@@ -164,9 +187,14 @@ class EvaluatedRays final : public RaySource {
   }
 
   [[nodiscard]] PupilMap map_from(Vec2 origin_mm) const {
-    const double per_mm = 1.0 / field_.radius_mm;
-    return {static_cast<float>((origin_mm.x + field_.shift_mm - field_.centre_mm) * per_mm),
-            static_cast<float>(origin_mm.y * per_mm), static_cast<float>(per_mm), static_cast<float>(field_.h)};
+    const Vec2 from = origin_mm + field_.shift_mm - field_.centre_mm;
+    const Vec2 per_mm{1.0 / field_.radius_mm.x, 1.0 / field_.radius_mm.y};
+    return {.x = static_cast<float>(from.x * per_mm.x),
+            .y = static_cast<float>(from.y * per_mm.y),
+            .per_mm = static_cast<float>(per_mm.x),
+            .h = static_cast<float>(field_.h),
+            .symmetric = field_.is_symmetric,
+            .y_per_mm = static_cast<float>(per_mm.y)};
   }
 
   const FieldPolynomials& field_;
@@ -186,7 +214,8 @@ class GhostOfLight final : public FittedGhost {
   [[nodiscard]] std::unique_ptr<RaySource> at(double lambda_nm) const override {
     return std::make_unique<EvaluatedRays>(field_, wavelength_coordinate(fit_, lambda_nm));
   }
-  [[nodiscard]] Rectangle upper_half() const override { return field_.upper_half; }
+  [[nodiscard]] Rectangle region() const override { return field_.region; }
+  [[nodiscard]] bool is_symmetric() const override { return field_.is_symmetric; }
 
  private:
   const LensPolynomials& fit_;
@@ -197,7 +226,8 @@ class GhostOfLight final : public FittedGhost {
 class DarkGhost final : public FittedGhost {
  public:
   [[nodiscard]] std::unique_ptr<RaySource> at(double /*lambda_nm*/) const override { return nullptr; }
-  [[nodiscard]] Rectangle upper_half() const override { return {}; }
+  [[nodiscard]] Rectangle region() const override { return {}; }
+  [[nodiscard]] bool is_symmetric() const override { return true; }
 };
 
 // The bounds at a field; next to a field without light those of the other neighbour, since searches miss some small
@@ -230,17 +260,20 @@ FittedLens::FittedLens(std::shared_ptr<const LensPolynomials> fit) : fit_(std::m
       of.zones.back() = PreparedZone(zone);
       bytes_ += 2 * sizeof(float) * zone.sensor_mm.along_field.coefficients.size() * (2 + zone.stop.size());
     }
+    for (const AsymmetricZone& zone : ghost.asymmetric)
+      bytes_ += 2 * sizeof(float) * zone.sensor_mm.x.coefficients.size() * (2 + zone.stop.size());
   }
 }
 
 std::unique_ptr<FittedGhost> FittedLens::find(const RayRequest& request) const {
   const LightSource& source = request.light.source;
-  if (!request.light.symmetric || !source.is_distant() || request.shortest_nm < fit_->shortest_nm ||
-      request.longest_nm > fit_->longest_nm || request.stop_radius_mm > kWidestStop * fit_->stop_radius_mm)
+  if (!source.is_distant() || request.shortest_nm < fit_->shortest_nm || request.longest_nm > fit_->longest_nm ||
+      request.stop_radius_mm > kWidestStop * fit_->stop_radius_mm)
     return nullptr;
   const auto found = ghosts_.find(request.ghost);
   if (found == ghosts_.end()) return nullptr;
   const OfGhost& of = found->second;
+  if (!request.light.symmetric) return find_asymmetric(request, *of.ghost);
   const double field = source.direction.x / source.direction.z;
   const PolynomialZone* const zone = find_zone(*of.ghost, field);
   if (zone == nullptr || zone->state == PolynomialZone::State::Traced) return nullptr;
@@ -248,9 +281,28 @@ std::unique_ptr<FittedGhost> FittedLens::find(const RayRequest& request) const {
   if (zone->state == PolynomialZone::State::Dark || !has_light(bounds)) return std::make_unique<DarkGhost>();
   FieldPolynomials polynomials(of.zones[static_cast<std::size_t>(zone - of.ghost->zones.data())], *zone, field);
   polynomials.stop_scale = fit_->stop_radius_mm / request.stop_radius_mm;
-  polynomials.shift_mm = field * (fit_->entrance_z_mm - request.plane_z_mm);
-  polynomials.upper_half = {{bounds.low_x_mm - polynomials.shift_mm, 0.0},
-                            {bounds.high_x_mm - polynomials.shift_mm, bounds.half_y_mm}};
+  polynomials.shift_mm.x = field * (fit_->entrance_z_mm - request.plane_z_mm);
+  polynomials.region = {{bounds.low_x_mm - polynomials.shift_mm.x, 0.0},
+                        {bounds.high_x_mm - polynomials.shift_mm.x, bounds.half_y_mm}};
+  return std::make_unique<GhostOfLight>(*fit_, std::move(polynomials));
+}
+
+std::unique_ptr<FittedGhost> FittedLens::find_asymmetric(const RayRequest& request,
+                                                         const GhostPolynomials& ghost) const {
+  const Vec3 direction = request.light.source.direction;
+  const Vec2 tangents{direction.x / direction.z, direction.y / direction.z};
+  const FoundAsymmetricZone found = find_zone(ghost, tangents);
+  if (found.zone == nullptr || found.zone->state == PolynomialZone::State::Traced) return nullptr;
+  if (found.zone->state == PolynomialZone::State::Dark) return std::make_unique<DarkGhost>();
+  const Vec2 of_zone = mirrored_by(found, tangents);
+  const AsymmetricBounds bounds = bounds_between(*found.zone, of_zone);
+  if (!lets_light_in(bounds)) return std::make_unique<DarkGhost>();
+  FieldPolynomials polynomials(found, field_point(*found.zone, of_zone));
+  polynomials.stop_scale = fit_->stop_radius_mm / request.stop_radius_mm;
+  polynomials.shift_mm = tangents * (fit_->entrance_z_mm - request.plane_z_mm);
+  const Vec2 a = mirrored_by(found, {bounds.low_x_mm, bounds.low_y_mm}) - polynomials.shift_mm;
+  const Vec2 b = mirrored_by(found, {bounds.high_x_mm, bounds.high_y_mm}) - polynomials.shift_mm;
+  polynomials.region = {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
   return std::make_unique<GhostOfLight>(*fit_, std::move(polynomials));
 }
 

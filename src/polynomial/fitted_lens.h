@@ -24,6 +24,9 @@ class FittedLens final : public pupils::FittedGhosts {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
+  [[nodiscard]] std::unique_ptr<pupils::FittedGhost> find_asymmetric(const pupils::RayRequest& request,
+                                                                     const GhostPolynomials& ghost) const;
+
   struct OfGhost {
     const GhostPolynomials* ghost = nullptr;
     std::vector<PreparedZone> zones;  // those of the ghost

@@ -32,4 +32,19 @@ std::vector<double> LeastSquares::solve(std::span<const double> right) const {
   return {unknowns.data(), unknowns.data() + unknowns.size()};
 }
 
+std::vector<std::vector<double>> LeastSquares::solve_all(std::span<const std::vector<double>> right) const {
+  const auto count = static_cast<Eigen::Index>(right.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(state_->qr.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::vector<double>& one = right[static_cast<std::size_t>(k)];
+    all.col(k).head(static_cast<Eigen::Index>(one.size())) =
+        Eigen::Map<const Eigen::VectorXd>(one.data(), static_cast<Eigen::Index>(one.size()));
+  }
+  const Eigen::MatrixXd unknowns = state_->qr.solve(all);
+  std::vector<std::vector<double>> solutions;
+  for (Eigen::Index k = 0; k < count; ++k)
+    solutions.emplace_back(unknowns.col(k).data(), unknowns.col(k).data() + unknowns.rows());
+  return solutions;
+}
+
 }  // namespace contrejour::inline internal::polynomial

@@ -8,11 +8,6 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr double kSamplesPerUnknown = 2.0;
-// Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
-// of them. Without a ridge their coefficients grow until float cannot hold the differences.
-constexpr double kRidge = 1e-7;
-
 // Chebyshev coefficients of the polynomial through values at Lobatto points.
 std::vector<double> coefficients_of(std::span<const double> values) {
   const auto last = static_cast<int>(values.size()) - 1;
@@ -30,9 +25,8 @@ std::vector<double> coefficients_of(std::span<const double> values) {
 
 }  // namespace
 
-ChebyshevSum assembled(int degree, std::span<const std::vector<double>> solutions, std::size_t from,
+ChebyshevSum assembled(int degree, std::size_t count, std::span<const std::vector<double>> solutions, std::size_t from,
                        double negligible) {
-  const auto count = static_cast<std::size_t>(term_count(degree));
   std::vector<std::vector<double>> by_term;
   std::vector<double> values(solutions.size());
   for (std::size_t t = 0; t < count; ++t) {
@@ -93,6 +87,7 @@ Rows Systems::matrix(int degree, bool of_vectors) const {
 NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& value, double negligible) {
   const auto& [used, weight] = systems.weighted();
   const LeastSquares& system = systems.scalars(degree);
+  const auto count = static_cast<std::size_t>(term_count(degree));
   NodeSums sums;
   std::vector<double> right(used.size());
   for (const NodeRays& node : systems.rays().nodes) {
@@ -101,7 +96,7 @@ NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& valu
       for (std::size_t k = 0; k < right.size(); ++k) right[k] = weight[k] * value(node.tables[l], used[k]);
       solutions.push_back(system.solve(right));
     }
-    sums.push_back(assembled(degree, solutions, 0, negligible));
+    sums.push_back(assembled(degree, count, solutions, 0, negligible));
   }
   return sums;
 }
@@ -109,6 +104,7 @@ NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& valu
 NodeVectors fitted_vectors(Systems& systems, int degree, const ValueOf& x, const ValueOf& y, double negligible) {
   const auto& [used, weight] = systems.weighted();
   const LeastSquares& system = systems.vectors(degree);
+  const auto count = static_cast<std::size_t>(term_count(degree));
   NodeVectors vectors;
   std::vector<double> right(2 * used.size());
   for (const NodeRays& node : systems.rays().nodes) {
@@ -120,8 +116,8 @@ NodeVectors fitted_vectors(Systems& systems, int degree, const ValueOf& x, const
       }
       solutions.push_back(system.solve(right));
     }
-    vectors.push_back({assembled(degree, solutions, 0, negligible),
-                       assembled(degree, solutions, static_cast<std::size_t>(term_count(degree)), negligible)});
+    vectors.push_back(
+        {assembled(degree, count, solutions, 0, negligible), assembled(degree, count, solutions, count, negligible)});
   }
   return vectors;
 }

@@ -16,6 +16,16 @@ namespace contrejour::inline internal::polynomial {
 // Every third wavelength suffices for positions, which vary less than transmittances.
 inline constexpr int kWavelengthStep = 3;
 
+inline constexpr double kSamplesPerUnknown = 2.0;
+// Rays do not cover the basis' whole cube, |v| <= h |p|, so that at high orders some sums of terms are nearly 0 at all
+// of them. Without a ridge their coefficients grow until float cannot hold the differences.
+inline constexpr double kRidge = 1e-7;
+
+// Coefficients by wavelength terms from solutions at Lobatto wavelengths, `count` terms of them from one on, without
+// the last wavelength terms that together change no value by more than `negligible`.
+[[nodiscard]] ChebyshevSum assembled(int degree, std::size_t count, std::span<const std::vector<double>> solutions,
+                                     std::size_t from, double negligible);
+
 // Weighted rows of the basis at the rays: for scalars, or for both coordinates of vectors.
 class Systems {
  public:
@@ -37,11 +47,6 @@ class Systems {
   const WeightedRays& weighted_;
   Made scalars_, vectors_;
 };
-
-// Coefficients by wavelength terms from solutions at Lobatto wavelengths, of which the polynomial's begin at `from`,
-// without the last terms that together change no value by more than `negligible`.
-[[nodiscard]] ChebyshevSum assembled(int degree, std::span<const std::vector<double>> solutions, std::size_t from,
-                                     double negligible);
 
 using ValueOf = std::function<double(const RayTable& table, std::size_t ray)>;
 

@@ -84,6 +84,18 @@ CONTREJOUR_INLINE_IF_FAST Points sum_over_v(const float* c, const Points& v, con
     return mul_add(sum_over_v<kDegree, kJ + 1>(c, v, w), v, here);
 }
 
+// Degrees that only lenses without axial symmetry need.
+template <class Points>
+HWY_INLINE Points sum_of_any_degree(const float* c, int degree, const Points& v, const Points& w) {
+  Points sum = Points::all(c[power_index(degree, 0)]);
+  for (int j = degree - 1; j >= 0; --j) {
+    Points over_w = Points::all(c[power_index(j, degree - j)]);
+    for (int k = degree - j - 1; k >= 0; --k) over_w = mul_add(over_w, w, Points::all(c[power_index(j, k)]));
+    sum = mul_add(sum, v, over_w);
+  }
+  return sum;
+}
+
 template <class Points>
 CONTREJOUR_INLINE_IF_FAST Points value_of(const PowerSum& sum, const Points& v, const Points& w) {
   const float* const c = sum.coefficients.data();
@@ -96,7 +108,8 @@ CONTREJOUR_INLINE_IF_FAST Points value_of(const PowerSum& sum, const Points& v, 
     case 5: return sum_over_v<5, 0>(c, v, w);
     case 6: return sum_over_v<6, 0>(c, v, w);
     case 7: return sum_over_v<7, 0>(c, v, w);
-    default: return sum_over_v<8, 0>(c, v, w);
+    case 8: return sum_over_v<8, 0>(c, v, w);
+    default: return sum_of_any_degree(c, sum.degree, v, w);
   }
 }
 static_assert(kMaxDegree == 8);
@@ -119,19 +132,20 @@ HWY_INLINE void store(const Points& values, float* to, std::size_t count) {
 
 // The points that start at one of them; `count` of them are written.
 template <class Points>
-CONTREJOUR_INLINE_IF_FAST void evaluate_from(const PupilMap& map, const Points& x_mm, const Points& y_mm, std::size_t at,
-                              std::size_t count, const PointOutputs& out) {
+CONTREJOUR_INLINE_IF_FAST void evaluate_from(const PupilMap& map, const Points& x_mm, const Points& y_mm,
+                                             std::size_t at, std::size_t count, const PointOutputs& out) {
   const Points per_mm = Points::all(map.per_mm), h = Points::all(map.h);
-  const Points px = mul_add(x_mm, per_mm, Points::all(map.x)), py = mul_add(y_mm, per_mm, Points::all(map.y));
-  const Points v = mul(h, px);
-  const Points w = mul_add(mul_add(px, px, mul(py, py)), Points::all(2.0F), Points::all(-1.0F));
+  const Points px = mul_add(x_mm, per_mm, Points::all(map.x));
+  const Points py = mul_add(y_mm, map.symmetric ? per_mm : Points::all(map.y_per_mm), Points::all(map.y));
+  const Points v = map.symmetric ? mul(h, px) : px;
+  const Points w = map.symmetric ? mul_add(mul_add(px, px, mul(py, py)), Points::all(2.0F), Points::all(-1.0F)) : py;
   Points highest = Points::all(0.0F);
   const Points scale = Points::all(out.stop_scale * out.stop_scale);
   for (std::size_t k = 0; k < out.vectors.size(); ++k) {
     const VectorOutput& vector = out.vectors[k];
-    const Points along_pupil = value_of(*vector.along_pupil, v, w);
-    const Points x = mul_add(px, along_pupil, mul(h, value_of(*vector.along_field, v, w)));
-    const Points y = mul(py, along_pupil);
+    const Points along_pupil = value_of(*vector.along_pupil, v, w), along_field = value_of(*vector.along_field, v, w);
+    const Points x = map.symmetric ? mul_add(px, along_pupil, mul(h, along_field)) : along_field;
+    const Points y = map.symmetric ? mul(py, along_pupil) : along_pupil;
     store(x, vector.x + at, count);
     store(y, vector.y + at, count);
     if (k + out.crossings >= out.vectors.size()) highest = max(highest, mul(scale, mul_add(x, x, mul(y, y))));

@@ -15,19 +15,23 @@ namespace contrejour::inline internal::polynomial {
 // The position of v^j w^k among the coefficients: by rising j + k, so that those up to a degree come first.
 [[nodiscard]] constexpr int power_index(int j, int k) { return (j + k) * (j + k + 1) / 2 + k; }
 
+inline constexpr int kMaxPowerDegree = 13;
 struct PowerSum {
-  int degree = 0;  // of v and w together, at most kMaxDegree
-  std::array<float, static_cast<std::size_t>(pair_count(kMaxDegree))> coefficients{};
+  int degree = 0;  // of v and w together, at most kMaxPowerDegree
+  std::array<float, static_cast<std::size_t>(pair_count(kMaxPowerDegree))> coefficients{};
 };
 
-// From a start, relative to an origin, to the pupil point p and v = h p_x, w = 2 p.p - 1.
+// From a start, relative to an origin, to the pupil point p, and v = h p_x, w = 2 p.p - 1; without symmetry v = p_x and
+// w = p_y.
 struct PupilMap {
   float x = 0.0F, y = 0.0F;  // the pupil point of the origin
   float per_mm = 1.0F;
   float h = 0.0F;
+  bool symmetric = true;
+  float y_per_mm = 1.0F;  // without symmetry: along y
 };
 
-// h along_field + p along_pupil, written to x and y.
+// h along_field + p along_pupil, written to x and y. Without symmetry along_field is x and along_pupil y.
 struct VectorOutput {
   const PowerSum* along_field = nullptr;
   const PowerSum* along_pupil = nullptr;
@@ -40,14 +44,14 @@ struct ScalarOutput {
 };
 
 struct PointOutputs {
-  std::span<const VectorOutput> vectors;
-  std::span<const ScalarOutput> rims;  // squared relative heights
+  std::span<const VectorOutput> vectors = {};
+  std::span<const ScalarOutput> rims = {};  // squared relative heights
   // The largest of the rims' and of distances from the stop's centre times stop_scale; null: not wanted. The crossings
   // of the stop are the last `crossings` vectors.
   float* relative_height = nullptr;
   std::size_t crossings = 0;
   float stop_scale = 0.0F;
-  ScalarOutput transmittance;  // 0 to largest_transmittance
+  ScalarOutput transmittance = {};  // 0 to largest_transmittance
   float largest_transmittance = 0.0F;
 };
 

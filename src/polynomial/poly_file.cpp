@@ -15,7 +15,7 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr double kStateVersion = 1, kRangeVersion = 2;
+constexpr double kStateVersion = 1, kRangeVersion = 2, kAsymmetricVersion = 3;
 constexpr std::string_view kFormat = "contrejour polynomials";
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;
 constexpr std::size_t kMaxGhosts = 100'000, kMaxZones = 64, kMaxSpans = 256, kMaxNodes = 32, kMaxSurfaces = 10'000;
@@ -27,6 +27,7 @@ CborNode node_of(const GhostPolynomials& ghost) {
   for (const PolynomialZone& zone : ghost.zones) zones.list.push_back(zone_node(zone));
   node.add("ghost", ghost_name_node(ghost.ghost));
   node.add("zones", std::move(zones));
+  if (!ghost.asymmetric.empty()) add_asymmetric(node, ghost);
   return node;
 }
 
@@ -98,7 +99,7 @@ LensPolynomials read_without_ghosts(PolyReader& read, const CborNode& root) {
   return out;
 }
 
-GhostPolynomials read_ghost(PolyReader& read, const CborNode& node) {
+GhostPolynomials read_ghost(PolyReader& read, const CborNode& node, bool may_be_asymmetric) {
   GhostPolynomials ghost{read_ghost_name(read, node.find("ghost")), {}};
   if (read.failed()) return ghost;
   for (const CborNode& zone : read.list(node.find("zones"), "the zones of a ghost", 1, kMaxZones)) {
@@ -107,6 +108,7 @@ GhostPolynomials read_ghost(PolyReader& read, const CborNode& node) {
     if (ghost.zones.size() > 1 && ghost.zones.back().field_low != ghost.zones[ghost.zones.size() - 2].field_high)
       read.fail(fmt::format("the zones of ghost {} do not adjoin", ghost_name(ghost.ghost)));
   }
+  if (may_be_asymmetric && node.find("asymmetric") != nullptr) read_asymmetric(read, node, ghost);
   return ghost;
 }
 
@@ -182,11 +184,11 @@ RangePositions read_positions(PolyReader& read, const CborNode& node, const Rang
   return positions;
 }
 
-LensPolynomials read_state(PolyReader& read, const CborNode& root) {
+LensPolynomials read_one_state(PolyReader& read, const CborNode& root, bool may_be_asymmetric) {
   LensPolynomials out = read_without_ghosts(read, root);
   for (const CborNode& ghost : read.list(root.find("ghosts"), "the ghosts", 0, kMaxGhosts)) {
     if (read.failed()) break;
-    out.ghosts.push_back(read_ghost(read, ghost));
+    out.ghosts.push_back(read_ghost(read, ghost, may_be_asymmetric));
   }
   return out;
 }
@@ -222,7 +224,9 @@ namespace contrejour {
 using namespace polynomial;
 
 std::string write_polynomials(const LensPolynomials& polynomials) {
-  CborNode root = root_of(polynomials, kStateVersion), ghosts = cbor_list();
+  const bool symmetric =
+      std::ranges::all_of(polynomials.ghosts, [](const GhostPolynomials& ghost) { return ghost.asymmetric.empty(); });
+  CborNode root = root_of(polynomials, symmetric ? kStateVersion : kAsymmetricVersion), ghosts = cbor_list();
   for (const GhostPolynomials& ghost : polynomials.ghosts) ghosts.list.push_back(node_of(ghost));
   root.add("ghosts", std::move(ghosts));
   return write_cbor(root);
@@ -247,10 +251,12 @@ Result<AnyPolynomials> read_any_polynomials(std::string_view bytes, const std::s
     return failure(ErrorCode::Parse, fmt::format("not a file of polynomials; {}", kRemedy), {file, 0, 0});
   const CborNode* const version = root->find("version");
   const bool is_range = version != nullptr && version->number == kRangeVersion;
-  if (!is_range && (version == nullptr || version->number != kStateVersion))
+  const bool may_be_asymmetric = version != nullptr && version->number == kAsymmetricVersion;
+  if (!is_range && !may_be_asymmetric && (version == nullptr || version->number != kStateVersion))
     return failure(ErrorCode::Parse, "a version of the format that is not known; fit the lens again", {file, 0, 0});
   PolyReader read;
-  AnyPolynomials out = is_range ? AnyPolynomials(read_range(read, *root)) : AnyPolynomials(read_state(read, *root));
+  AnyPolynomials out = is_range ? AnyPolynomials(read_range(read, *root))
+                                : AnyPolynomials(read_one_state(read, *root, may_be_asymmetric));
   if (read.failed()) return failure(ErrorCode::Parse, *read.error(), {file, 0, 0});
   return out;
 }

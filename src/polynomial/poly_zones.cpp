@@ -39,93 +39,40 @@ std::optional<std::int64_t> next_leb128(std::string_view& from) {
   return std::nullopt;
 }
 
-CborNode node_of(const ChebyshevSum& sum) {
-  std::string bytes;
-  for (const float c : sum.coefficients) add_leb128(bytes, std::llround(static_cast<double>(c) / sum.step));
-  return cbor_list({cbor_number(sum.degree), cbor_number(sum.wavelength_terms), cbor_number(std::ilogb(sum.step)),
-                    cbor_bytes(std::move(bytes))});
-}
-
 CborNode node_of(const ChebyshevVector& vector) {
-  return cbor_list({node_of(vector.along_field), node_of(vector.along_pupil)});
+  return cbor_list({sum_node(vector.along_field), sum_node(vector.along_pupil)});
 }
 
-CborNode node_of(const PolynomialAccuracy& accuracy) {
-  return cbor_list({cbor_number(accuracy.position_p50_px), cbor_number(accuracy.position_p95_px),
-                    cbor_number(accuracy.position_max_px), cbor_number(accuracy.edge_p95),
-                    cbor_number(accuracy.transmittance_p95), cbor_number(accuracy.rays)});
-}
-
-// Little-endian floats.
 CborNode node_of(std::span<const PolynomialBounds> bounds) {
-  std::string bytes;
-  for (const PolynomialBounds& b : bounds)
-    for (const float value : {b.field, b.low_x_mm, b.high_x_mm, b.half_y_mm})
-      for (unsigned shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<char>(std::bit_cast<std::uint32_t>(value) >> shift & 0xffU));
-  return cbor_bytes(std::move(bytes));
+  std::vector<float> values;
+  for (const PolynomialBounds& b : bounds) values.insert(values.end(), {b.field, b.low_x_mm, b.high_x_mm, b.half_y_mm});
+  return floats_node(values);
 }
 
 constexpr std::array<std::string_view, 3> kStates{"fitted", "traced", "dark"};  // in the order of the enumeration
 
-ChebyshevSum read_sum(PolyReader& read, const CborNode* node) {
-  const auto parts = read.list(node, "a polynomial", 4, 4);
-  if (read.failed()) return {};
-  ChebyshevSum sum;
-  sum.degree = read.whole(&parts[0], "a degree", 0, kMaxDegree);
-  sum.wavelength_terms = read.whole(&parts[1], "the number of wavelength terms", 1, kMaxWavelengthTerms);
-  sum.step = static_cast<float>(std::ldexp(1.0, read.whole(&parts[2], "a step", -100, 60)));
-  std::string_view rest = read.bytes(&parts[3], "coefficients");
-  if (read.failed()) return {};
-  const int count = term_count(sum.degree) * sum.wavelength_terms;
-  for (int k = 0; k < count; ++k) {
-    const auto value = next_leb128(rest);
-    if (!value || std::abs(*value) > (std::int64_t{1} << 24)) {
-      read.fail("a polynomial has too few coefficients, or one that is too large");
-      return {};
-    }
-    sum.coefficients.push_back(static_cast<float>(*value) * sum.step);
-  }
-  if (!rest.empty()) read.fail("a polynomial has too many coefficients");
-  return sum;
+ChebyshevSum read_symmetric_sum(PolyReader& read, const CborNode* node) {
+  return read_sum(read, node, kMaxDegree, term_count);
 }
 
 ChebyshevVector read_vector(PolyReader& read, const CborNode* node) {
   const auto parts = read.list(node, "a vector", 2, 2);
   if (read.failed()) return {};
-  ChebyshevVector vector{read_sum(read, &parts[0]), read_sum(read, &parts[1])};
+  ChebyshevVector vector{read_symmetric_sum(read, &parts[0]), read_symmetric_sum(read, &parts[1])};
   if (vector.along_field.degree != vector.along_pupil.degree) read.fail("the parts of a vector differ in degree");
   return vector;
 }
 
-PolynomialAccuracy read_accuracy(PolyReader& read, const CborNode* node) {
-  const auto parts = read.list(node, "an accuracy", 6, 6);
-  if (read.failed()) return {};
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  const auto error = [&](std::size_t k) { return read.number(&parts[k], "an accuracy", 0.0, kAny); };
-  return {error(0), error(1), error(2), error(3), error(4), read.whole(&parts[5], "a number of rays", 0, 1 << 30)};
-}
-
 std::vector<PolynomialBounds> read_bounds(PolyReader& read, const CborNode* node, const PolynomialZone& zone) {
-  const std::string_view bytes = read.bytes(node, "the bounds of a pupil");
+  const std::vector<float> values = read_floats(read, node, "the bounds of a pupil", 2 * 4, kMaxBounds * 4);
   std::vector<PolynomialBounds> bounds;
-  if (read.failed()) return bounds;
-  if (bytes.size() % 16 != 0 || bytes.size() < 32 || bytes.size() > 16 * kMaxBounds)
-    read.fail("the bounds of a pupil have a wrong length");
+  if (values.size() % 4 != 0) read.fail("the bounds of a pupil have a wrong length");
   float before = 0.0F;
-  for (std::size_t at = 0; at + 16 <= bytes.size() && !read.failed(); at += 16) {
-    std::array<float, 4> values{};
-    for (std::size_t k = 0; k < 16; ++k) {
-      auto bits = std::bit_cast<std::uint32_t>(values[k / 4]);
-      bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + k])) << (8 * (k % 4));
-      values[k / 4] = std::bit_cast<float>(bits);
-    }
-    for (const float value : values)
-      if (!(std::abs(value) < 1e6F)) read.fail("the bounds of a pupil are out of range");
-    if (values[0] < before || static_cast<double>(values[0]) > 1.001 * zone.field_high + 1e-6)
+  for (std::size_t at = 0; at + 4 <= values.size() && !read.failed(); at += 4) {
+    if (values[at] < before || static_cast<double>(values[at]) > 1.001 * zone.field_high + 1e-6)
       read.fail("the bounds of a pupil do not rise");
-    before = values[0];
-    bounds.push_back({values[0], values[1], values[2], values[3]});
+    before = values[at];
+    bounds.push_back({values[at], values[at + 1], values[at + 2], values[at + 3]});
   }
   return bounds;
 }
@@ -145,17 +92,102 @@ void read_polynomials_of(PolyReader& read, const CborNode& node, PolynomialZone&
   }
   zone.rims = read_rims(read, node.find("rims"));
   if (read.failed()) return;
-  zone.transmittance = read_sum(read, node.find("transmittance"));
+  zone.transmittance = read_symmetric_sum(read, node.find("transmittance"));
 }
 
 }  // namespace
 
+CborNode sum_node(const ChebyshevSum& sum) {
+  std::string bytes;
+  for (const float c : sum.coefficients) add_leb128(bytes, std::llround(static_cast<double>(c) / sum.step));
+  return cbor_list({cbor_number(sum.degree), cbor_number(sum.wavelength_terms), cbor_number(std::ilogb(sum.step)),
+                    cbor_bytes(std::move(bytes))});
+}
+
+CborNode accuracy_node(const PolynomialAccuracy& accuracy) {
+  return cbor_list({cbor_number(accuracy.position_p50_px), cbor_number(accuracy.position_p95_px),
+                    cbor_number(accuracy.position_max_px), cbor_number(accuracy.edge_p95),
+                    cbor_number(accuracy.transmittance_p95), cbor_number(accuracy.rays)});
+}
+
+ChebyshevSum read_sum(PolyReader& read, const CborNode* node, int max_degree,
+                      const std::function<int(int)>& count_of_terms) {
+  const auto parts = read.list(node, "a polynomial", 4, 4);
+  if (read.failed()) return {};
+  ChebyshevSum sum;
+  sum.degree = read.whole(&parts[0], "a degree", 0, max_degree);
+  sum.wavelength_terms = read.whole(&parts[1], "the number of wavelength terms", 1, kMaxWavelengthTerms);
+  sum.step = static_cast<float>(std::ldexp(1.0, read.whole(&parts[2], "a step", -100, 60)));
+  std::string_view rest = read.bytes(&parts[3], "coefficients");
+  if (read.failed()) return {};
+  const int count = count_of_terms(sum.degree) * sum.wavelength_terms;
+  for (int k = 0; k < count; ++k) {
+    const auto value = next_leb128(rest);
+    if (!value || std::abs(*value) > (std::int64_t{1} << 24)) {
+      read.fail("a polynomial has too few coefficients, or one that is too large");
+      return {};
+    }
+    sum.coefficients.push_back(static_cast<float>(*value) * sum.step);
+  }
+  if (!rest.empty()) read.fail("a polynomial has too many coefficients");
+  return sum;
+}
+
+PolynomialAccuracy read_accuracy(PolyReader& read, const CborNode* node) {
+  const auto parts = read.list(node, "an accuracy", 6, 6);
+  if (read.failed()) return {};
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const auto error = [&](std::size_t k) { return read.number(&parts[k], "an accuracy", 0.0, kAny); };
+  return {error(0), error(1), error(2), error(3), error(4), read.whole(&parts[5], "a number of rays", 0, 1 << 30)};
+}
+
+CborNode floats_node(std::span<const float> values) {
+  std::string bytes;
+  for (const float value : values)
+    for (unsigned shift = 0; shift < 32; shift += 8)
+      bytes.push_back(static_cast<char>(std::bit_cast<std::uint32_t>(value) >> shift & 0xffU));
+  return cbor_bytes(std::move(bytes));
+}
+
+std::vector<float> read_floats(PolyReader& read, const CborNode* node, const std::string& what, std::size_t low,
+                               std::size_t high) {
+  const std::string_view bytes = read.bytes(node, what);
+  std::vector<float> values;
+  if (read.failed()) return values;
+  if (bytes.size() % 4 != 0 || bytes.size() < 4 * low || bytes.size() > 4 * high) {
+    read.fail(what + " have a wrong length");
+    return values;
+  }
+  for (std::size_t at = 0; at < bytes.size(); at += 4) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      bits |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + k])) << (8 * k);
+    values.push_back(std::bit_cast<float>(bits));
+    if (!(std::abs(values.back()) < 1e6F)) read.fail(what + " are out of range");
+  }
+  return values;
+}
+
+CborNode state_node(PolynomialZone::State state) {
+  return cbor_text(std::string(kStates[static_cast<std::size_t>(state)]));
+}
+
+PolynomialZone::State read_state(PolyReader& read, const CborNode* node) {
+  const std::string state = read.text(node, "the state of a zone");
+  const auto found = std::ranges::find(kStates, state);
+  if (found == kStates.end()) {
+    read.fail(fmt::format("'{}' is no state of a zone", state));
+    return PolynomialZone::State::Dark;
+  }
+  return static_cast<PolynomialZone::State>(found - kStates.begin());
+}
+
 CborNode zone_node(const PolynomialZone& zone) {
   CborNode node;
-  node.add("state", cbor_text(std::string(kStates[static_cast<std::size_t>(zone.state)])));
+  node.add("state", state_node(zone.state));
   node.add("field", cbor_list({cbor_number(zone.field_low), cbor_number(zone.field_high)}));
   node.add("flux", cbor_number(zone.flux_mm2));
-  node.add("accuracy", node_of(zone.accuracy));
+  node.add("accuracy", accuracy_node(zone.accuracy));
   if (zone.state != PolynomialZone::State::Fitted) return node;
   node.add("order", cbor_number(zone.order));
   node.add("pupil",
@@ -166,18 +198,15 @@ CborNode zone_node(const PolynomialZone& zone) {
   for (const ChebyshevVector& crossing : zone.stop) stop.list.push_back(node_of(crossing));
   node.add("stop", std::move(stop));
   node.add("rims", rims_node(zone.rims));
-  node.add("transmittance", node_of(zone.transmittance));
+  node.add("transmittance", sum_node(zone.transmittance));
   return node;
 }
 
 PolynomialZone read_zone(PolyReader& read, const CborNode& node) {
   PolynomialZone zone;
-  const std::string state = read.text(node.find("state"), "the state of a zone");
-  const auto found = std::ranges::find(kStates, state);
+  zone.state = read_state(read, node.find("state"));
   const auto field = read.list(node.find("field"), "the field of a zone", 2, 2);
-  if (found == kStates.end()) read.fail(fmt::format("'{}' is no state of a zone", state));
   if (read.failed()) return zone;
-  zone.state = static_cast<PolynomialZone::State>(found - kStates.begin());
   zone.field_low = read.number(&field[0], "the field of a zone", 0.0, 100.0);
   zone.field_high = read.number(&field[1], "the field of a zone", 0.0, 100.0);
   if (!(zone.field_high > zone.field_low)) read.fail("a zone of the field is empty");
@@ -187,16 +216,15 @@ PolynomialZone read_zone(PolyReader& read, const CborNode& node) {
   return zone;
 }
 
-CborNode polynomial_node(const ChebyshevSum& sum) { return node_of(sum); }
 CborNode vector_node(const ChebyshevVector& vector) { return node_of(vector); }
 
 CborNode rims_node(const std::vector<PolynomialRim>& rims) {
   CborNode node = cbor_list();
-  for (const PolynomialRim& rim : rims) node.list.push_back(cbor_list({cbor_number(rim.step), node_of(rim.squared)}));
+  for (const PolynomialRim& rim : rims) node.list.push_back(cbor_list({cbor_number(rim.step), sum_node(rim.squared)}));
   return node;
 }
 
-ChebyshevSum read_polynomial(PolyReader& read, const CborNode* node) { return read_sum(read, node); }
+ChebyshevSum read_polynomial(PolyReader& read, const CborNode* node) { return read_symmetric_sum(read, node); }
 ChebyshevVector read_polynomial_vector(PolyReader& read, const CborNode* node) { return read_vector(read, node); }
 
 std::vector<PolynomialRim> read_rims(PolyReader& read, const CborNode* node) {
@@ -204,7 +232,7 @@ std::vector<PolynomialRim> read_rims(PolyReader& read, const CborNode* node) {
   for (const CborNode& rim : read.list(node, "the rims", 0, kMaxRims)) {
     const auto parts = read.list(&rim, "a rim", 2, 2);
     if (read.failed()) break;
-    rims.push_back({read.whole(&parts[0], "a rim's step", 0, 10'000), read_sum(read, &parts[1])});
+    rims.push_back({read.whole(&parts[0], "a rim's step", 0, 10'000), read_symmetric_sum(read, &parts[1])});
     if (read.failed()) break;
   }
   return rims;

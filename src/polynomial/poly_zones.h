@@ -2,10 +2,13 @@
 // Zones of polynomials in CBOR, and a reader of values that may be wrong: docs/formats/poly.md.
 #pragma once
 
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -55,11 +58,27 @@ class PolyReader {
   std::optional<std::string> error_;
 };
 
+// Parts of zones of either kind. count_of_terms: by degree.
+[[nodiscard]] CborNode sum_node(const ChebyshevSum& sum);
+[[nodiscard]] ChebyshevSum read_sum(PolyReader& read, const CborNode* node, int max_degree,
+                                    const std::function<int(int)>& count_of_terms);
+[[nodiscard]] CborNode accuracy_node(const PolynomialAccuracy& accuracy);
+[[nodiscard]] PolynomialAccuracy read_accuracy(PolyReader& read, const CborNode* node);
+[[nodiscard]] CborNode state_node(PolynomialZone::State state);
+[[nodiscard]] PolynomialZone::State read_state(PolyReader& read, const CborNode* node);
+// Little-endian floats, low to high of them, below 1e6. what: in the plural.
+[[nodiscard]] CborNode floats_node(std::span<const float> values);
+[[nodiscard]] std::vector<float> read_floats(PolyReader& read, const CborNode* node, const std::string& what,
+                                             std::size_t low, std::size_t high);
+
+// Adds `mirrors` and `asymmetric` to the node of a ghost without axial symmetry, and reads them.
+void add_asymmetric(CborNode& node, const GhostPolynomials& ghost);
+void read_asymmetric(PolyReader& read, const CborNode& node, GhostPolynomials& ghost);
+
 [[nodiscard]] CborNode zone_node(const PolynomialZone& zone);
 [[nodiscard]] PolynomialZone read_zone(PolyReader& read, const CborNode& node);
 
-// A polynomial and a vector alone, and the squared heights at rims.
-[[nodiscard]] CborNode polynomial_node(const ChebyshevSum& sum);
+// A polynomial and a vector of the basis with axial symmetry alone, and the squared heights at rims.
 [[nodiscard]] CborNode vector_node(const ChebyshevVector& vector);
 [[nodiscard]] CborNode rims_node(const std::vector<PolynomialRim>& rims);
 [[nodiscard]] ChebyshevSum read_polynomial(PolyReader& read, const CborNode* node);

@@ -7,12 +7,23 @@
 
 #include "polynomial/chebyshev_basis.h"
 #include "render/pupils/ghost_pupil.h"
+#include "render/pupils/pupil_search.h"
 
 namespace contrejour::inline internal::polynomial {
 namespace {
 
 constexpr double kMargin = 0.12;  // around the light, of the size of its bounds: cells of a map extend beyond its edge
 constexpr std::array kSearched_nm{420.0, 550.0, 680.0};
+
+// Searches without axial symmetry: rays along a side of the grids, and how much wider the box of one wavelength is
+// searched at another, of its size on each side.
+constexpr int kAsymmetricSide = 33;
+constexpr double kNearbyMargin = 0.15;
+
+Rectangle enlarged(const Rectangle& box, double by) {
+  const Vec2 more = (box.high - box.low) * by;
+  return {box.low - more, box.high + more};
+}
 
 double cosine_spaced(double t) { return 0.5 * (1.0 - std::cos(std::numbers::pi * t)); }
 double cosine_density(double t) { return 0.5 * std::numbers::pi * std::sin(std::numbers::pi * t); }
@@ -26,10 +37,10 @@ double RayTable::clearance(std::size_t ray) const {
   return largest;
 }
 
-LightSource GhostRays::light_at(double field) { return LightSource(normalized({field, 0.0, 1.0})); }
+LightSource GhostRays::light_at(Vec2 tangents) { return LightSource(normalized({tangents.x, tangents.y, 1.0})); }
 
 PolynomialBounds GhostRays::bounds(double field) const {
-  const LightSource light = light_at(field);
+  const LightSource light = light_at({field, 0.0});
   const auto pupil = pupils::find_ghost_pupil({steps_, ghost_, light, entrance_window(lens_, light), kSearched_nm});
   PolynomialBounds found{static_cast<float>(field), 0.0F, 0.0F, 0.0F};
   if (pupil.boxes.empty()) return found;
@@ -42,6 +53,31 @@ PolynomialBounds GhostRays::bounds(double field) const {
   return found;
 }
 
+AsymmetricBounds GhostRays::bounds(Vec2 tangents, const std::optional<Rectangle>& near, bool everywhere) const {
+  const LightSource light = light_at(tangents);
+  const EntranceWindow window = entrance_window(lens_, light);
+  // Points of the window's plane lie elsewhere in the fit's.
+  const Vec2 shift = tangents * (entrance_z_mm_ - window.z_mm);
+  RayGrid grid;
+  std::optional<Rectangle> hull;
+  const pupils::PupilEffort effort = everywhere ? pupils::PupilEffort::Finest : pupils::PupilEffort::Finer;
+  const auto include = [&](double lambda_nm, const std::optional<Rectangle>& hint) {
+    pupils::PupilRays rays(PacketPath(steps_.at(lambda_nm), ghost_, {{0.0, 0.0, window.z_mm}, light}), window);
+    pupils::Pupil found;
+    if (hint) found = pupils::find_pupil(rays, {.hint = hint}, grid);
+    if (found.is_empty()) found = pupils::find_pupil(rays, {.effort = effort, .side = kAsymmetricSide}, grid);
+    if (!found.is_empty()) hull = hull ? both(*hull, found.box()) : found.box();
+  };
+  std::optional<Rectangle> hint;
+  if (near) hint = Rectangle{near->low - shift, near->high - shift};
+  include(kSearched_nm[1], hint);
+  if (!hull) return {};
+  for (const double lambda_nm : {kSearched_nm[0], kSearched_nm[2]}) include(lambda_nm, enlarged(*hull, kNearbyMargin));
+  const Rectangle bounds = enlarged(*hull, kMargin / 2.0);
+  return {static_cast<float>(bounds.low.x + shift.x), static_cast<float>(bounds.low.y + shift.y),
+          static_cast<float>(bounds.high.x + shift.x), static_cast<float>(bounds.high.y + shift.y)};
+}
+
 RayTable GhostRays::trace(std::span<const RayStart> starts, double lambda_nm) const {
   RayTable table;
   const std::size_t count = starts.size();
@@ -49,8 +85,8 @@ RayTable GhostRays::trace(std::span<const RayStart> starts, double lambda_nm) co
     values->resize(count);
   std::vector<float> x_mm(count), y_mm(count), rims;
   for (std::size_t from = 0, to = 0; from < count; from = to) {
-    while (to < count && starts[to].field == starts[from].field) ++to;
-    const LightSource light = light_at(starts[from].field);
+    while (to < count && starts[to].field == starts[from].field && starts[to].field_y == starts[from].field_y) ++to;
+    const LightSource light = light_at({starts[from].field, starts[from].field_y});
     PacketPath path(steps_.at(lambda_nm), ghost_, {{0.0, 0.0, entrance_z_mm_}, light});
     const Vec2 origin = starts[from].entrance_mm;
     for (std::size_t k = from; k < to; ++k) {

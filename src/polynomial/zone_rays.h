@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,11 +14,12 @@
 
 namespace contrejour::inline internal::polynomial {
 
-// A ray through a point of the entrance plane, from a light at the tangent `field` along x.
+// A ray through a point of the entrance plane, from a light at the tangents `field` along x and `field_y` along y.
 struct RayStart {
   double field = 0.0;
   Vec2 entrance_mm;
   double area_mm2 = 0.0;  // of the entrance plane that it stands for
+  double field_y = 0.0;
 };
 
 // Rays at one wavelength, one value a ray.
@@ -41,11 +43,14 @@ class GhostRays {
   // The area of the entrance plane that light uses at a field, with a margin around it; without light low_x_mm >=
   // high_x_mm.
   [[nodiscard]] PolynomialBounds bounds(double field) const;
-  // starts: by rising field.
+  // The same for the light's tangents along both axes, for a ghost without axial symmetry. near: bounds of light of a
+  // direction close by, if known. everywhere: searches the window so finely that hardly any light is missed.
+  [[nodiscard]] AsymmetricBounds bounds(Vec2 tangents, const std::optional<Rectangle>& near, bool everywhere) const;
+  // starts: those of one direction in a row.
   [[nodiscard]] RayTable trace(std::span<const RayStart> starts, double lambda_nm) const;
 
  private:
-  [[nodiscard]] static LightSource light_at(double field);
+  [[nodiscard]] static LightSource light_at(Vec2 tangents);
 
   const LensState& lens_;
   const StepsByWavelength& steps_;
@@ -59,6 +64,7 @@ class GhostRays {
                                                   std::size_t first);
 
 [[nodiscard]] inline bool has_light(const PolynomialBounds& bounds) { return bounds.low_x_mm < bounds.high_x_mm; }
+[[nodiscard]] inline bool lets_light_in(const AsymmetricBounds& bounds) { return bounds.low_x_mm < bounds.high_x_mm; }
 // Bounds at any field of a zone between two with light: those of both about the centre of pupil coordinates, which
 // follows the pupil; none elsewhere.
 [[nodiscard]] PolynomialBounds bounds_between(const PolynomialZone& zone, double field);

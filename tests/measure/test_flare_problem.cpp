@@ -6,6 +6,7 @@
 
 #include "contrejour/expert/measured_flare.h"
 #include "measure/fit/amplitudes.h"
+#include "measure/fit/flare_fit_state.h"
 #include "measure/fit/flare_problem.h"
 #include "measure/random_ghosts.h"
 
@@ -146,6 +147,29 @@ TEST_CASE("amplitudes: the levels of given outlines are found from any start, an
   settings.profile_coefficients = 0;
   for (const MeasuredGhost& ghost : with_best_amplitudes(stations, start, settings, {}).ghosts)
     CHECK(ghost.profile[0].empty());
+}
+
+TEST_CASE("flare problem: a ghost without light in the pictures stays within its path and its radius of the start") {
+  FlareFit fit;
+  fit.result.flare.s_max = 0.5;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const MeasuredFlare flare = planted(1, seed);
+    auto stations = stations_of(flare, 6, 1.0, true);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> noise;
+    for (FitStation& station : stations)
+      for (float& value : station.rate.pixels) value = noise(random);
+    MeasuredFlare start = flare;
+    for (std::size_t c = 0; c < 3; ++c) {
+      start.ghosts[0].border[c].coefficients = {1.0};  // a tenthousandth of a standard deviation
+      start.ghosts[0].inside[c].coefficients = {1.0};
+    }
+    const LevelFit found = optimised(fit, stations, start, {1e9, 25});
+    const double s = start.s_max, radius = start.ghosts[0].half_height(0.0);
+    const double path = std::abs(start.ghosts[0].centre.coefficients[0]) * s;
+    const double moved = (found.flare.ghosts[0].centre.coefficients[0] - start.ghosts[0].centre.coefficients[0]) * s;
+    CHECK(std::abs(moved) <= 0.2 * path + 0.5 * radius + 1e-9);  // as docs/physics/measured-flare.md has it
+  }
 }
 
 TEST_CASE("flare problem: the same bits for any number of threads") {

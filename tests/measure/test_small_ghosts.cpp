@@ -93,6 +93,28 @@ TEST_CASE("small ghosts: a spot is found where it is, and where there is none, n
   }
 }
 
+TEST_CASE("small ghosts: a spot that saturates one channel is found by the others") {
+  const MeasuredFlare flare{"", "", 0.4, std::nullopt, {flare_with_spots().ghosts[2]}};
+  std::vector<FitStation> stations;
+  for (int k = 1; k <= 9; ++k) {
+    const double s = 0.4 / 9.0 * k;
+    FitStation station{s,
+                       {kSpotFrame, {1.0, 0.0}},
+                       picture_of_spots(flare, s, static_cast<unsigned>(k), kSpotNoise),
+                       Image(kSpotWidth, kSpotHeight)};
+    for (std::size_t i = 0; i < station.weight.pixels.size(); ++i) {
+      const bool saturated = i % 3 == 2 && static_cast<double>(station.rate.pixels[i]) > 5.0 * kSpotNoise;
+      if (saturated) station.rate.pixels[i] = 0.0F;  // as where no exposure shows a pixel
+      station.weight.pixels[i] = saturated ? 0.0F : static_cast<float>(1.0 / (kSpotNoise * kSpotNoise));
+    }
+    stations.push_back(std::move(station));
+  }
+  const auto found = strongest_spot(search_pictures(stations, kSpotNoise), {}, {}, {});
+  REQUIRE(found.has_value());
+  const double s = 0.3;
+  CHECK(std::abs((found->speed + found->bend * s * s - 0.55) * s) * kSpotFocalLength_px < 1.0);
+}
+
 TEST_CASE("small ghosts: a fit finds two spots, and their speeds, sizes and levels, with a disc below them [slow]") {
   FlareFitOptions options;
   options.max_ghosts = 1;

@@ -127,7 +127,7 @@ TEST_CASE("pupils of fitted ghosts contain all light at any stop, and little els
       REQUIRE(fitted != nullptr);
       const std::vector<Rectangle> boxes = find_fitted_pupil(*fitted, kLambda_nm);
       for (const Rectangle& box : boxes) boxes_mm2 += area_of(box);
-      const Rectangle half = fitted->upper_half();
+      const Rectangle half = fitted->region();
       for (int k = 0; k < kSide * kSide; ++k) {
         const Vec2 at{std::lerp(half.low.x, half.high.x, (k % kSide + 0.5) / kSide),
                       std::lerp(0.0, half.high.y, (k / kSide + 0.5) / kSide)};

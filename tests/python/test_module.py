@@ -363,6 +363,31 @@ class DirectPolynomialsTest(unittest.TestCase):
 class PolynomialsTest(unittest.TestCase):
     ONLY = {"only": [(1, 2), (3, 6)], "max_order": 9}
 
+    def test_a_ghost_without_axial_symmetry(self):
+        fit = contrejour.fit_polynomials(
+            "cooke-triplet", only=[(1, 2)], max_order=9, half_field_deg=3, decentre=0.1, build_seed=3
+        )
+        points = np.random.default_rng(1).uniform(-3, 3, (200, 2))
+        rays = fit.evaluate((1, 2), (1.5, -2.0), points, 550)
+        x, y = math.tan(math.radians(1.5)), math.tan(math.radians(-2.0))
+        direction = np.array([x, y, 1.0]) / math.sqrt(1 + x * x + y * y)
+        origins = np.column_stack([points, np.full(200, fit.entrance_z_mm)])
+        traced = contrejour.trace(
+            "cooke-triplet",
+            origins,
+            np.tile(direction, (200, 1)),
+            ghost=(1, 2),
+            lambda_nm=550,
+            decentre=0.1,
+            build_seed=3,
+        )
+        both = rays.passed & traced.passed
+        self.assertGreater(both.sum(), 20)
+        errors = np.linalg.norm(rays.sensor_mm - traced.sensor_mm, axis=1)[both]
+        self.assertLess(np.quantile(errors, 0.95), 0.25 * 36 / 1920)
+        with self.assertRaisesRegex(ValueError, "as .x, y."):
+            fit.evaluate((1, 2), 1.5, points)
+
     def test_fit_and_evaluate(self):
         fit = contrejour.fit_polynomials(LENS, **self.ONLY)
         self.assertEqual(sorted(fit.ghosts), [(1, 2), (3, 6)])

@@ -21,6 +21,7 @@ inline std::shared_ptr<const LensPolynomials> shared_fit(const LensState& lens, 
   constexpr std::size_t kMostGhosts = 30;
   static std::map<std::pair<std::uint64_t, std::vector<Ghost>>, std::shared_ptr<const LensPolynomials>> kept;
   PolynomialOptions options{.max_order = 9, .max_halvings = 1};
+  options.asymmetric = false;  // test_asymmetric.cpp tests these
   const auto* const list = std::get_if<SelectList>(&settings.selection);
   options.ghosts = list != nullptr ? list->ghosts : enumerate_ghosts(lens, settings.scope);
   if (options.ghosts.size() > kMostGhosts) options.ghosts.resize(kMostGhosts);

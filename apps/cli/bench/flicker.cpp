@@ -56,8 +56,8 @@ double largest_ratio(const std::array<double, 3>& part, const std::array<double,
   return largest;
 }
 
-// Adds the second differences at one time to the figures.
-void add_time(const Film& rendered, const Film& fine, Flicker& flicker, double& squares_over_time) {
+// Adds the second differences at one time to the figures. frame: the middle one of the three.
+void add_time(int frame, const Film& rendered, const Film& fine, Flicker& flicker, double& squares_over_time) {
   double own = 0.0, exact = 0.0, between = 0.0, unclipped = 0.0, largest = 0.0;
   std::array<double, 3> flux{}, fine_flux{};
   const double peak = fine.peak(), count = static_cast<double>(rendered.samples());
@@ -75,6 +75,7 @@ void add_time(const Film& rendered, const Film& fine, Flicker& flicker, double& 
   const auto rms = [&](double squares) { return std::sqrt(squares / count) / peak; };
   flicker.rendered = std::max(flicker.rendered, rms(own));
   flicker.fine = std::max(flicker.fine, rms(exact));
+  if (rms(between) > flicker.difference) flicker.worst_frame = frame;
   flicker.difference = std::max(flicker.difference, rms(between));
   flicker.unclipped = std::max(flicker.unclipped, rms(unclipped));
   flicker.pixel_difference = std::max(flicker.pixel_difference, largest / peak);
@@ -110,7 +111,7 @@ std::span<const FlickerCase> flicker_cases() {
   return kCases;
 }
 
-Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& effects, int frames,
+Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& effects, const FlickerFrames& frames,
                                 const params::Values& values, const Context& context) {
   const auto lens = lens_of(system, effects);
   if (!lens) return tl::unexpected(lens.error());
@@ -124,10 +125,10 @@ Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& ef
   FrameSettings fine_settings = settings;
   fine_settings.area_error = kFineError;
 
-  Flicker flicker{.system = std::string(system.name), .effects = effects.name, .frames = frames};
+  Flicker flicker{.system = std::string(system.name), .effects = effects.name, .frames = frames.count};
   Film rendered, fine;
   double squares = 0.0;
-  for (int k = 0; k < frames; ++k) {
+  for (int k = frames.first; k < frames.first + frames.count; ++k) {
     const Vec2 moved = Vec2{std::cos(kHeading_rad), std::sin(kHeading_rad)} * (kStep_px * k);
     const Vec2 at = Vec2{kFirstLight_uv.x * frame.width, kFirstLight_uv.y * frame.height} + moved;
     Light light;
@@ -139,9 +140,9 @@ Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& ef
       if (!flare) return tl::unexpected(flare.error());
       film->add(std::move(flare->image));
     }
-    if (rendered.is_full()) add_time(rendered, fine, flicker, squares);
+    if (rendered.is_full()) add_time(k - 1, rendered, fine, flicker, squares);
   }
-  flicker.mean_difference = std::sqrt(squares / std::max(1, frames - 2));
+  flicker.mean_difference = std::sqrt(squares / std::max(1, frames.count - 2));
   return flicker;
 }
 

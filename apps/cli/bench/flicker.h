@@ -28,6 +28,8 @@ inline constexpr double kStep_px = 0.1;
 struct Flicker {
   std::string system, effects;
   int frames = 0;
+  int worst_frame =
+      0;  // the middle one of the three at which `difference` is the largest, counted from the shot's start
   // Second differences of samples that are clipped at the peak, as errors are measured (compare() of metrics.h): as the
   // RMS over the pixels of a frame, over that peak, the largest of all times.
   double rendered = 0.0;  // of the frames
@@ -40,8 +42,14 @@ struct Flicker {
   double flux = 0.0, fine_flux = 0.0;
 };
 
+// The frames of the shot that are measured.
+struct FlickerFrames {
+  int first = 0, count = 200;
+};
+
 // The values give the error, the frame's size and all other settings. Errors: Cancelled.
-[[nodiscard]] Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& effects, int frames,
-                                              const params::Values& values, const Context& context);
+[[nodiscard]] Result<Flicker> measure_flicker(const PaperSystem& system, const FlickerCase& effects,
+                                              const FlickerFrames& frames, const params::Values& values,
+                                              const Context& context);
 
 }  // namespace contrejour::cli

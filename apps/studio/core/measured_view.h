@@ -47,9 +47,9 @@ struct MeasuredOrder {
 // The photograph of the station next to the angle, and the fit in its light. All pictures have the fit's exposure.
 struct MeasuredPhotograph {
   std::size_t station = 0, count = 0;  // from 0; of the sweep
-  std::vector<std::uint32_t> captured, fitted, residual;
+  std::vector<std::uint32_t> captured = {}, fitted = {}, residual = {};
   // The kymograph of all stations that have been read; black where there is none.
-  std::shared_ptr<const std::vector<std::uint32_t>> kymograph;
+  std::shared_ptr<const std::vector<std::uint32_t>> kymograph = nullptr;
   std::size_t read = 0;  // stations
 };
 

@@ -4,7 +4,8 @@
 // docs/physics/polynomial.md derives the basis; docs/formats/poly.md describes the file.
 // Units: mm, nm; field angles as tangents. Frame: the light's meridional one (light from -x or along the axis).
 // Accuracy: that of PolynomialAccuracy, measured on rays left out of the fit; a part of the field in which a ghost does
-// not reach it is marked Traced and has no polynomials. Thread-safety: plain values, pure functions.
+// not reach it is marked Traced and has no polynomials. Ghosts without axial symmetry (anamorphic and decentred lenses)
+// have zones in both directions of the field instead, AsymmetricZone. Thread-safety: plain values, pure functions.
 #pragma once
 
 #include <array>
@@ -38,6 +39,9 @@ struct PolynomialOptions {
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
   std::vector<Ghost> ghosts = {};  // if any: only these, whatever the scope
+  // Whether ghosts without axial symmetry are fitted, too; else they are Traced. This takes about a
+  // second each where there is no mirror plane.
+  bool asymmetric = true;
 };
 
 // A function of u, v, w and the wavelength as a sum of products of Chebyshev polynomials. Coefficients by degree in the
@@ -93,9 +97,48 @@ struct PolynomialZone {
   double flux_mm2 = 0.0;  // mean over the zone's area of the ghost's flux at 550 nm, by the fit's rays
 };
 
+// The part of the entrance plane within which light of one direction enters; low_x >= high_x: no light.
+struct AsymmetricBounds {
+  float low_x_mm = 0.0F, low_y_mm = 0.0F, high_x_mm = 0.0F, high_y_mm = 0.0F;
+};
+
+// Vectors in the lens's frame, without symmetry: a polynomial each for x and y.
+struct AsymmetricVector {
+  ChebyshevSum x, y;
+};
+
+// A rectangle of light directions of a ghost without axial symmetry. Polynomials are sums of products of Chebyshev
+// polynomials in s, the direction's tangents scaled to [-1, 1] over the zone, and p, the pupil point. Coefficients by
+// degree in the wavelength's coordinate, then by the degrees in p_x, p_y, s_x and s_y, s_y fastest; these sum to at
+// most `degree`. Where the zone is even in x, terms that have not the parity of their output in (p_x, s_x) are left
+// out: the vectors' x is odd, all else even; likewise in y.
+struct AsymmetricZone {
+  PolynomialZone::State state = PolynomialZone::State::Dark;
+  Vec2 low, high;  // tangents of the light's direction: x / z and y / z
+  bool even_x = false, even_y = false;  // the lens has this mirror plane, and the zone is symmetric about it
+  int order = 0;  // of the sensor's position
+  // p = ((e_x - centre_x) / radius_x, (e_y - centre_y) / radius_y). Centres are cubic polynomials: coefficients of
+  // T_i(s_x) T_j(s_y) by i, then j, with i + j <= 3.
+  std::array<double, 10> centre_x_mm{}, centre_y_mm{};
+  Vec2 radius_mm{1.0, 1.0};
+  int bounds_side = 0;  // bounds are of a grid of directions, as many as this in x and y, corners included, x fastest
+  std::vector<AsymmetricBounds> bounds;
+  AsymmetricVector sensor_mm;
+  std::vector<AsymmetricVector> stop;  // by crossing, over LensPolynomials::stop_radius_mm
+  std::vector<PolynomialRim> rims;
+  ChebyshevSum transmittance;
+  PolynomialAccuracy accuracy;
+  double flux_mm2 = 0.0;  // mean over the zone's area of the ghost's flux at 550 nm
+};
+
 struct GhostPolynomials {
   Ghost ghost;
-  std::vector<PolynomialZone> zones;  // by rising field, adjoining
+  // By rising field, adjoining. If the ghost has no axial symmetry, one that is Traced, and `asymmetric` tells more.
+  std::vector<PolynomialZone> zones;
+  // Rectangles that together cover the field. Where the lens has a mirror plane, zones that are not even are those of
+  // one side: light of the other is the mirror image.
+  std::vector<AsymmetricZone> asymmetric = {};
+  bool mirror_x = false, mirror_y = false;  // x -> -x, y -> -y change nothing
 };
 
 struct LensPolynomials {
@@ -109,8 +152,8 @@ struct LensPolynomials {
   std::vector<GhostPolynomials> ghosts;
 };
 
-// Fits all ghosts of a lens, wide open, in parallel; the result does not depend on the number of threads. Ghosts
-// without axial symmetry and those that pass an obscuration are marked Traced. Errors: options out of range, Cancelled.
+// Fits all ghosts of a lens, wide open, in parallel; the result does not depend on the number of threads. Ghosts that
+// pass an obscuration and those of a sensor's grating are marked Traced. Errors: options out of range, Cancelled.
 [[nodiscard]] CONTREJOUR_API Result<LensPolynomials> fit_polynomials(const LensState& lens,
                                                                      const PolynomialOptions& options = {},
                                                                      const Context& context = {});
@@ -159,5 +202,21 @@ enum class PolynomialLanguage : std::uint8_t { C, Glsl, Hlsl, Python };
 
 // The zone of a ghost at a field; null if the ghost has none there.
 [[nodiscard]] CONTREJOUR_API const PolynomialZone* find_zone(const GhostPolynomials& ghost, double field);
+
+// The zone of a ghost without axial symmetry for light with these tangents, x / z and y / z, and whether it is that of
+// the mirror image. Null if the ghost has none there.
+struct FoundAsymmetricZone {
+  const AsymmetricZone* zone = nullptr;
+  bool mirrored_x = false, mirrored_y = false;
+};
+// The area of the field that a zone stands for, with its mirror images; of tangents, over pi, as that of a circular
+// field is the square of its tangent.
+[[nodiscard]] CONTREJOUR_API double area_of(const GhostPolynomials& ghost, const AsymmetricZone& zone);
+[[nodiscard]] CONTREJOUR_API FoundAsymmetricZone find_zone(const GhostPolynomials& ghost, Vec2 tangents);
+
+// The same as above for a ghost without axial symmetry, in the lens's frame; none where the ghost is not fitted.
+[[nodiscard]] CONTREJOUR_API std::optional<PolynomialRay> evaluate(const LensPolynomials& polynomials,
+                                                                   const GhostPolynomials& ghost, Vec2 tangents,
+                                                                   Vec2 entrance_mm, double lambda_nm);
 
 }  // namespace contrejour

@@ -211,18 +211,21 @@ OfSpeed discs_of_speed(std::span<const SearchPicture> pictures, const Spokes& al
 std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor) {
   std::vector<SearchPicture> pictures;
   for (const FitStation& station : stations) {
-    SearchPicture picture{station.s, station.frame, Image(station.rate.width, station.rate.height, 1)};
+    SearchPicture picture{station.s, station.frame, Image(station.rate.width, station.rate.height, 1), {}};
+    picture.partial = picture.value;
     for (std::size_t k = 0; k < picture.value.pixels.size(); ++k) {
-      double sum = 0.0, variance = 0.0;
-      bool usable = true;
+      double sum = 0.0, variance = 0.0, used = 0.0;
       for (std::size_t c = 0; c < 3; ++c) {
         const auto weight = static_cast<double>(station.weight.pixels[3 * k + c]);
-        usable = usable && weight > 0.0;
-        sum += static_cast<double>(station.rate.pixels[3 * k + c]) / 3.0;
-        if (usable) variance += 1.0 / (3.0 * weight);
+        if (!(weight > 0.0)) continue;
+        sum += static_cast<double>(station.rate.pixels[3 * k + c]);
+        variance += 1.0 / weight;
+        used += 1.0;
       }
-      picture.value.pixels[k] =
-          usable ? static_cast<float>(stabilised(sum, std::sqrt(variance), floor)) : std::nanf("");
+      const float value =
+          used > 0.0 ? static_cast<float>(stabilised(sum / used, std::sqrt(variance / used), floor)) : std::nanf("");
+      picture.partial.pixels[k] = value;
+      picture.value.pixels[k] = used == 3.0 ? value : std::nanf("");
     }
     pictures.push_back(std::move(picture));
   }

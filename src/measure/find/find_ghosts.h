@@ -17,12 +17,13 @@
 namespace contrejour::inline internal {
 
 // One picture to search, in standard deviations: proportional to brightness where the floor decides, to its logarithm
-// where a part of the brightness does, so that steps of dim ghosts count as those of bright ones; NaN where nothing was
-// measured.
+// where a part of the brightness does, so that steps of dim ghosts count as those of bright ones; NaN where a channel
+// was not measured.
 struct SearchPicture {
   double s = 0;
   StationFrame frame;
   Image value;  // one channel
+  Image partial = {};  // the mean of the channels that were measured; NaN where none was
 };
 // floor: the usual standard deviation.
 [[nodiscard]] std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor);

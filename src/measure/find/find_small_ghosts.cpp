@@ -48,7 +48,8 @@ struct WeightedMean {
   }
 };
 
-// The spot's mean over that of the ring's parts above and below, in standard deviations.
+// The spot's mean over that of the ring's parts above and below, in standard deviations. A bright spot may saturate a
+// channel, and the others show it; where its surroundings do, too, it is the light's halo that is seen.
 double spot_contrast(const SearchPicture& picture, Vec2 along, Vec2 middle, double radius) {
   const double inner = radius + kRingGap_px, outer = kRingPart * radius + kRingWidth_px;
   WeightedMean spot, ring;
@@ -64,7 +65,7 @@ double spot_contrast(const SearchPicture& picture, Vec2 along, Vec2 middle, doub
       const double r2 = dot(offset, offset);
       if (r2 > outer * outer) continue;
       if (r2 < (radius + 0.5) * (radius + 0.5)) {
-        spot.add(picture.value.at(x, y), std::min(radius + 0.5 - std::sqrt(r2), 1.0));
+        spot.add(picture.partial.at(x, y), std::min(radius + 0.5 - std::sqrt(r2), 1.0));
       } else if (r2 > inner * inner && std::abs(cross(along, offset)) > std::abs(dot(along, offset))) {
         ring.add(picture.value.at(x, y), 1.0);
       }

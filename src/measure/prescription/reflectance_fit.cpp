@@ -13,7 +13,7 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMostRelativeError = 0.35;  // of an energy that has a logarithm
-constexpr double kHuber = 2.0;               // standard deviations
+constexpr double kHuberOfRatios = 2.0;               // standard deviations
 constexpr int kRobustRounds = 6;
 constexpr double kMostChange = 6.0;  // of a logarithm: a factor of 400
 
@@ -53,8 +53,8 @@ Eigen::VectorXd robust_solution(const LinearProblem& problem, double prior) {
   Eigen::VectorXd x = solved(problem.rows, problem.right, prior);
   for (int round = 0; round < kRobustRounds; ++round) {
     const Eigen::VectorXd off = problem.right - problem.rows * x;
-    const Eigen::VectorXd root =
-        off.unaryExpr([](double r) { return std::abs(r) > kHuber ? std::sqrt(kHuber / std::abs(r)) : 1.0; });
+    const Eigen::VectorXd root = off.unaryExpr(
+        [](double r) { return std::abs(r) > kHuberOfRatios ? std::sqrt(kHuberOfRatios / std::abs(r)) : 1.0; });
     x = solved(root.asDiagonal() * problem.rows, root.cwiseProduct(problem.right), prior);
   }
   return x;

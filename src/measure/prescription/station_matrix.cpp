@@ -90,13 +90,13 @@ double column_value(const Patch& patch, int x, int y, int channel) {
 }
 
 // Ghosts' levels, not below 0, and the halo's, of one channel of one station.
-struct Levels {
+struct MatrixLevels {
   Eigen::VectorXd ghosts, halo;
 };
 
-Levels levels_of(const ChannelMatrix& all, Eigen::Index ghosts) {
+MatrixLevels levels_of(const ChannelMatrix& all, Eigen::Index ghosts) {
   const ChannelMatrix kept = eliminated(all, ghosts);
-  Levels levels;
+  MatrixLevels levels;
   levels.ghosts = nonnegative_least_squares(kept.a, kept.b).x;
   levels.halo = others_given(all, levels.ghosts);
   return levels;
@@ -119,9 +119,9 @@ Image first_weights(const FitStation& station, const HaloColumns& halo) {
 }
 
 void reweight(const FitStation& station, const std::vector<Patch>& columns, const HaloColumns& halo,
-              const std::array<Levels, 3>& levels, const WeightSettings& settings, Image& weights) {
+              const std::array<MatrixLevels, 3>& levels, const WeightSettings& settings, Image& weights) {
   for (int c = 0; c < 3; ++c) {
-    const Levels& of = levels[static_cast<std::size_t>(c)];
+    const MatrixLevels& of = levels[static_cast<std::size_t>(c)];
     for (int y = 0; y < weights.height; ++y) {
       for (int x = 0; x < weights.width; ++x) {
         float& weight = weights.at(x, y, c);
@@ -204,7 +204,7 @@ Image station_weights(const FitStation& station, const std::vector<Patch>& colum
   Image weights = first_weights(station, halo);
   for (int round = 0; round < kRounds; ++round) {
     const StationMatrix matrix = station_matrix(station, weights, columns, halo);
-    std::array<Levels, 3> levels;
+    std::array<MatrixLevels, 3> levels;
     for (std::size_t c = 0; c < 3; ++c) levels[c] = levels_of(matrix[c], static_cast<Eigen::Index>(columns.size()));
     reweight(station, columns, halo, levels, settings, weights);
   }

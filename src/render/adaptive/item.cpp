@@ -39,7 +39,7 @@ Work take_boxes(Item& item, GhostPupil pupil) {
 // The item's fit; null where its rays must be traced.
 std::unique_ptr<FittedGhost> fit_of(const Scene& scene, const Item& item, const LightFrame& light) {
   const std::vector<PlannedPass>& passes = item.light->passes;
-  if (scene.fitted == nullptr || passes.empty() || !light.symmetric) return nullptr;
+  if (scene.fitted == nullptr || passes.empty()) return nullptr;
   return scene.fitted->find({item.ghost, light, item.window.z_mm, scene.lens.stop_radius_mm * stop_times(item),
                              passes.front().lambda_nm, passes.back().lambda_nm});
 }

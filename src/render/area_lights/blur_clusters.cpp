@@ -17,18 +17,9 @@ constexpr double kPixelsCost = 0.3;  // cost of an image in the frame's pixels, 
 struct Group {
   bool is_sharp = false;
   int level = 0;
-  LinearMap seed = kZeroMap;  // in pixels of the frame
-  LinearMap px = kZeroMap;  // weighted sum
-  double weight = 0.0;
+  LinearMap seed = kZeroMap;  // of its brightest ghost, in pixels of the frame: the map that all are drawn with
   std::size_t spot = 0;  // for a negative level
   std::vector<std::size_t> ghosts;
-
-  void add(std::size_t index, const PieceGhost& one) {
-    const double w = std::max(one.blur->level, 1e-30);
-    px = px + one.blur->px * w;
-    weight += w;
-    ghosts.push_back(index);
-  }
 };
 
 // The cost of an image at this level over that of an image at the frame's own resolution.
@@ -47,11 +38,10 @@ class Grouping {
     Group* group = group_for(one, own);
     if (group == nullptr) {
       const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
-      group =
-          &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, kZeroMap, 0.0, one.spot, {}});
+      group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, one.spot, {}});
     } else
       squares += cheapest_;
-    group->add(index, one);
+    group->ghosts.push_back(index);
   }
 
   std::vector<Group> groups;
@@ -104,7 +94,7 @@ BlurClusters blur_clusters(std::span<const PieceGhost> ghosts, const LightPiece&
     BlurCluster made;
     made.is_sharp = group.is_sharp;
     made.level = group.level;
-    made.px_from_tangents = group.px * (std::exp2(-made.level) / group.weight);
+    made.px_from_tangents = group.seed * std::exp2(-made.level);
     std::sort(group.ghosts.begin(), group.ghosts.end());
     made.ghosts = std::move(group.ghosts);
     out.clusters.push_back(std::move(made));

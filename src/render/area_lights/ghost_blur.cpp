@@ -75,37 +75,62 @@ LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const Lin
   return best;
 }
 
-// For lights that are the same from both sides only the width of the blur counts, which would be lost in a mean of
-// opposite motions. This fits the covariance that has the lines' variances along their normals, and returns a map
-// that produces it.
-LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& through) {
-  std::array<std::array<double, 4>, 3> m{};  // unknowns xx, xy, yy of the covariance, and the right side
-  const LinearMap first = mapped_covariance(through, piece.covariance);
-  const auto add = [&](Vec2 n, double wanted, double w) {
+// A covariance's xx, xy and yy.
+using Covariance = std::array<double, 3>;
+
+double variance(Vec2 n, const Covariance& c) { return n.x * n.x * c[0] + 2.0 * n.x * n.y * c[1] + n.y * n.y * c[2]; }
+
+// Weighted equations for a covariance's variances along normals, solved by least squares.
+class CovarianceFit {
+ public:
+  void add(Vec2 n, double wanted, double weight) {
     const std::array<double, 3> row{n.x * n.x, 2.0 * n.x * n.y, n.y * n.y};
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) m[i][j] += w * row[i] * row[j];
-      m[i][3] += w * row[i] * wanted;
+      for (std::size_t j = 0; j < 3; ++j) m_[i][j] += weight * row[i] * row[j];
+      m_[i][3] += weight * row[i] * wanted;
     }
-  };
-  double all = 0.0;
-  for (const BlurredLine& f : ghost.lines) {
-    const double wanted = variance(f.shift_px, piece.covariance);
-    const double w = weight_of(ghost, f, piece) / std::max(wanted, 1e-6);  // errors of squared radii are twice as large
-    add(f.normal, wanted, w);
-    all += w;
   }
-  if (!(all > 0.0)) return through;
-  for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{std::sqrt(0.5), std::sqrt(0.5)}, Vec2{0.0, 1.0}})
-    add(n, dot(n, first(n)), kOfMiddle * all);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t r = i + 1; r < 3; ++r) {
-      const double by = m[r][i] / m[i][i];
-      for (std::size_t j = i; j < 4; ++j) m[r][j] -= by * m[i][j];
+
+  [[nodiscard]] Covariance solved() && {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t r = i + 1; r < 3; ++r) {
+        const double by = m_[r][i] / m_[i][i];
+        for (std::size_t j = i; j < 4; ++j) m_[r][j] -= by * m_[i][j];
+      }
+    const double yy = m_[2][3] / m_[2][2], xy = (m_[1][3] - m_[1][2] * yy) / m_[1][1];
+    return {(m_[0][3] - m_[0][1] * xy - m_[0][2] * yy) / m_[0][0], xy, yy};
+  }
+
+ private:
+  std::array<std::array<double, 4>, 3> m_{};  // of the unknowns, and the right side
+};
+
+// For lights that are the same from both sides only the width of the blur counts, which would be lost in a mean of
+// opposite motions. This fits the covariance that has the lines' variances along their normals, and returns a map
+// that produces it. As in map_through, large errors of a radius grow only linearly: else a line that comes into the
+// frame and moves otherwise than those beside it would change the blur of all at once.
+LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& through) {
+  const LinearMap first = mapped_covariance(through, piece.covariance);
+  Covariance best{first.x.x, first.x.y, first.y.y};
+  for (int fit = 0; fit < kFits; ++fit) {
+    CovarianceFit equations;
+    double all = 0.0;
+    for (const BlurredLine& f : ghost.lines) {
+      const double wanted = variance(f.shift_px, piece.covariance);
+      const double radius = 2.0 * std::sqrt(std::max(wanted, 0.0)),
+                   made = 2.0 * std::sqrt(std::max(variance(f.normal, best), 0.0));
+      const double off = std::abs(radius - made) / edge_width_px(ghost, f, piece);
+      // The difference of squared radii is that of the radii times their sum.
+      const double w = weight_of(ghost, f, piece) / (1.0 + off) / std::max((radius + made) * (radius + made), 1e-6);
+      equations.add(f.normal, wanted, w);
+      all += w;
     }
-  const double yy = m[2][3] / m[2][2], xy = (m[1][3] - m[1][2] * yy) / m[1][1],
-               xx = (m[0][3] - m[0][1] * xy - m[0][2] * yy) / m[0][0];
-  const LinearMap root = square_root({{xx, xy}, {xy, yy}});
+    if (!(all > 0.0)) return through;
+    for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{std::sqrt(0.5), std::sqrt(0.5)}, Vec2{0.0, 1.0}})
+      equations.add(n, dot(n, first(n)), kOfMiddle * all);
+    best = std::move(equations).solved();
+  }
+  const LinearMap root = square_root({{best[0], best[1]}, {best[1], best[2]}});
   const LinearMap light = square_root(piece.covariance);
   if (!(light.determinant() > 0.0) || !std::isfinite(root.x.x + root.x.y + root.y.y)) return through;
   // Rotated as the other map rotates the light: the rotation, or reflection, nearest to that map.
@@ -122,7 +147,8 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, 
   for (const GhostLine& f : motion.lines) {
     const double own_px = std::max(f.fraction * outline_px, 1e-3);
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
-    const double visible = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
+    const double inside = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
+    const double visible = inside * inside * (3.0 - 2.0 * inside);
     if (visible == 0.0) continue;
     BlurredLine px;
     px.normal = mirrored(f.normal);

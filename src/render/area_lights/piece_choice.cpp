@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <queue>
-#include <utility>
+#include <vector>
 
 namespace contrejour::inline internal::area {
 namespace {
@@ -110,44 +109,72 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 
 int finer_than(int across) { return *std::ranges::upper_bound(kAcross, across); }
 
-void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
-  using Gain = std::pair<double, std::size_t>;
-  // The error that the next finer division saves for each additional piece.
-  const auto refine = [&](double allowed, const auto& left) {
-    const auto saved = [&](const GhostOfArea& ghost) {
-      return left(ghost, ghost.across) - left(ghost, finer_than(ghost.across));
-    };
-    std::priority_queue<Gain> steps;
-    double sum = 0.0;
-    const auto push = [&](std::size_t k) {
-      const int n = ghosts[k].across;
-      if (n == kAcross.back()) {
-        sum -= left(ghosts[k], n);  // other ghosts need not compensate for it
-        return;
-      }
-      const int finer = finer_than(n);
-      steps.emplace(saved(ghosts[k]) / (finer * finer - n * n), k);
-    };
-    for (const GhostOfArea& ghost : ghosts)
-      sum += left(ghost, ghost.across) - (ghost.finer > 0.0 ? ghost.finer * saved(ghost) : 0.0);
-    for (std::size_t k = 0; k < ghosts.size(); ++k) push(k);
-    while (sum > allowed && !steps.empty() && steps.top().first > 0.0) {
-      const std::size_t k = steps.top().second;
-      GhostOfArea& ghost = ghosts[k];
-      const double whole = saved(ghost), rest = (1.0 - ghost.finer) * whole;
-      if (sum - rest < allowed) {
-        ghost.finer += (sum - allowed) / whole;
-        return;
-      }
-      steps.pop();
-      sum -= rest;
-      ghost.across = finer_than(ghost.across);
-      ghost.finer = 0.0;
-      push(k);
+namespace {
+
+// A ghost's divisions: the error that each of kAcross leaves, and what the next finer one saves for each further piece.
+struct Divisions {
+  std::array<double, kAcross.size()> left{};
+  std::array<double, kAcross.size() - 1> gain{};
+  double from = 0.0;  // a place among kAcross, and the part of the next one: no coarser ones are chosen
+
+  // The place at which the ghost is divided if steps are worth making from this gain on. A step is made in part over
+  // a range of gains, so that no ghost's division depends on the others' order.
+  [[nodiscard]] double at(double least_gain) const {
+    constexpr double kWholeStep = 3.0;  // times the least gain
+    double place = 0.0;
+    for (const double one : gain) {
+      const double part = std::clamp((one / least_gain - 1.0) / (kWholeStep - 1.0), 0.0, 1.0);
+      place += part;
+      if (part < 1.0) break;
     }
+    return std::max(place, from);
+  }
+  // The error there. What the finest division leaves does not count: other ghosts need not compensate for it.
+  [[nodiscard]] double error(double place) const {
+    const std::size_t k = std::min(static_cast<std::size_t>(place), gain.size() - 1);
+    return std::lerp(left[k], left[k + 1], place - static_cast<double>(k)) - left.back();
+  }
+};
+
+// Sets the divisions that together leave the error allowed: those above one common gain for each piece.
+template <class Left>
+void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
+  constexpr int kBisections = 50;
+  constexpr double kRange = 1e-12;  // of the largest gain
+  std::vector<Divisions> divisions(ghosts.size());
+  double largest = 0.0;
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    Divisions& one = divisions[g];
+    one.from = static_cast<double>(std::ranges::find(kAcross, ghosts[g].across) - kAcross.begin()) + ghosts[g].finer;
+    for (std::size_t k = 0; k < kAcross.size(); ++k) one.left[k] = left(ghosts[g], kAcross[k]);
+    for (std::size_t k = 0; k < one.gain.size(); ++k)
+      one.gain[k] = (one.left[k] - one.left[k + 1]) / (kAcross[k + 1] * kAcross[k + 1] - kAcross[k] * kAcross[k]);
+    largest = std::max(largest, one.gain.front());
+  }
+  const auto error = [&](double least_gain) {
+    double sum = 0.0;
+    for (const Divisions& one : divisions) sum += one.error(one.at(least_gain));
+    return sum;
   };
-  refine(budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
-  refine(kFluxAllowed * budget.flux,
+  if (!(largest > 0.0) || error(largest) <= allowed) return;
+  double few = largest, many = kRange * largest;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = std::sqrt(few * many);
+    (error(middle) > allowed ? few : many) = middle;
+  }
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    const double place = divisions[g].at(many);
+    const std::size_t k = std::min(static_cast<std::size_t>(place), kAcross.size() - 1);
+    ghosts[g].across = kAcross[k];
+    ghosts[g].finer = place - static_cast<double>(k);
+  }
+}
+
+}  // namespace
+
+void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
+  refine(ghosts, budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
+  refine(ghosts, kFluxAllowed * budget.flux,
          [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_error, across); });
 }
 

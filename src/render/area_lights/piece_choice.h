@@ -43,9 +43,9 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 // The next finer division: pieces across.
 [[nodiscard]] int finer_than(int across);
 
-// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with the fewest pieces. The
-// last step is made in part, for just the error allowed: so a ghost fades from one division into the next as its light
-// moves, and does not jump.
+// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with about the fewest pieces. A
+// step that is hardly worth making is made in part: so a ghost fades from one division into the next as its light
+// moves, and neither jumps nor makes others jump.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
 }  // namespace contrejour::inline internal::area

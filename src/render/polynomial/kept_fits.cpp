@@ -133,6 +133,7 @@ Result<std::shared_ptr<const FittedLens>> made_fit(const PlannedFrame& planned, 
       planned.cache.section<MadeFit>({lens.surfaces, lens.stop_index, lens.sensor_z_mm, lens.sensor_width_mm,
                                       lens.sensor_height_mm, lens.design_wavelength_nm, lens.absorption});
   PolynomialOptions missing;
+  missing.asymmetric = false;  // these fits take longer than drawing many frames
   std::ranges::copy_if(planned.plan.ghosts, std::back_inserter(missing.ghosts),
                        [&](const Ghost& ghost) { return !is_known(kept->lens.get(), ghost); });
   if (missing.ghosts.empty() && kept->lens) return kept->lens;

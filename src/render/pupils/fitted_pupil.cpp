@@ -31,7 +31,7 @@ std::vector<LitPiece> pieces_of(const ClearanceGrid& grid) {
   return pieces;
 }
 
-// Adds the boxes of light in a part of the upper half. dark: grids since one had a ray that gets through.
+// Adds the boxes of light in a part of the region. dark: grids since one had a ray that gets through.
 void search_evaluated(ClearanceGrid& grid, const Rectangle& part, int level, int dark, std::vector<Rectangle>& boxes) {
   const int columns = level == 0 ? kFirstEvaluatedColumns : kEvaluatedColumns;
   grid.trace(part, columns, part.low.y == 0.0 ? columns / 2 : columns);
@@ -48,14 +48,15 @@ void search_evaluated(ClearanceGrid& grid, const Rectangle& part, int level, int
 }  // namespace
 
 std::vector<Rectangle> find_fitted_pupil(const FittedGhost& ghost, std::span<const double> lambda_nm) {
-  const Rectangle half = ghost.upper_half();
-  if (!(half.low.x < half.high.x && half.low.y < half.high.y)) return {};
+  const Rectangle region = ghost.region();
+  if (!(region.low.x < region.high.x && region.low.y < region.high.y)) return {};
   std::vector<Rectangle> found;
   for (const double at_nm : {lambda_nm.front(), lambda_nm.back()}) {
     ClearanceGrid grid(ghost.at(at_nm));
-    search_evaluated(grid, half, 0, 0, found);
+    search_evaluated(grid, region, 0, 0, found);
     if (lambda_nm.size() == 1) break;
   }
+  if (!ghost.is_symmetric()) return disjoint(std::move(found));
   for (Rectangle& box : found)
     if (box.low.y == 0.0) box.low.y = -box.high.y;
   found = disjoint(std::move(found));

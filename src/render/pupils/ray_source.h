@@ -72,8 +72,10 @@ class FittedGhost {
   virtual ~FittedGhost() = default;
 
   [[nodiscard]] virtual std::unique_ptr<RaySource> at(double lambda_nm) const = 0;
-  // The upper half of a box that contains all light that enters, whatever the stop's opening.
-  [[nodiscard]] virtual Rectangle upper_half() const = 0;
+  // A box that contains all light that enters, whatever the stop's opening; where it is symmetric about the light's
+  // meridian, its upper half.
+  [[nodiscard]] virtual Rectangle region() const = 0;
+  [[nodiscard]] virtual bool is_symmetric() const = 0;
 };
 
 // The light of one ghost for which rays are needed.

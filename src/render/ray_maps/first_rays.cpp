@@ -118,7 +118,8 @@ bool predicts_next(FirstRays& rays, const WavelengthSamples& samples, std::size_
       if (!holds([&](const LobattoRays& s) -> Values { return s.stop[c][axis]; }, tolerance.stop)) return false;
     }
   }
-  return predicts_pattern(rays, samples, count, arrives, std::min(tolerance.weight, options.max_tint));
+  return predicts_pattern(rays, samples, count, arrives,
+                          std::min(options.predicted_fraction * tolerance.weight, options.max_tint));
 }
 
 // Finds the factors of the patterns that the first `count` samples predict. Where polynomials are off by more than

@@ -9,6 +9,11 @@ namespace contrejour::inline internal::ray_maps {
 namespace {
 
 constexpr int kNodes = 3;  // a side of the box
+// Light fills the ellipse in the box, not its corners. The weights of the box's nodes, row by row, give the mean over
+// the ellipse of polynomials of degree 2, and of x^2 y^2.
+constexpr double kCorner = 1.0 / 96.0, kSide = 10.0 / 96.0, kMiddle = 52.0 / 96.0;
+constexpr std::array<double, kNodes * kNodes> kWeights{kCorner, kSide,   kCorner, kSide,  kMiddle,
+                                                       kSide,   kCorner, kSide,   kCorner};
 constexpr std::array<std::size_t, 3> kSamples{7, 10, 13};
 constexpr double kPredictionTolerance = 0.004;  // of the largest flux: error of a prediction
 
@@ -32,7 +37,7 @@ bool WavelengthFlux::any() const { return std::ranges::count(counts_, true) > 0;
 
 double WavelengthFlux::sum(std::span<const float> transmission) const {
   double sum = 0.0;
-  for (std::size_t k = 0; k < at_.size(); ++k) sum += counts_[k] ? transmission[at_[k]] : 0.0F;
+  for (std::size_t k = 0; k < at_.size(); ++k) sum += counts_[k] ? kWeights[k] * transmission[at_[k]] : 0.0;
   return sum;
 }
 
@@ -61,7 +66,7 @@ double WavelengthFlux::of(std::size_t pass) {
   const std::vector<float> light =
       tracers_.at(pass).transmissions(ray_sets_[samples_[0]].box, kNodes, PacketPrecision::Double);
   double sum = 0.0;
-  for (std::size_t k = 0; k < light.size(); ++k) sum += counts_[k] ? light[k] : 0.0F;
+  for (std::size_t k = 0; k < light.size(); ++k) sum += counts_[k] ? kWeights[k] * light[k] : 0.0;
   return sum;
 }
 

@@ -43,3 +43,23 @@ TEST_CASE("on the axis a lens with errors is not symmetric; the same for any thr
     CHECK(image_of(bounds, none, light, settings).pixels == image_of(bounds, ideal, light, settings).pixels);
   });
 }
+
+TEST_CASE("polynomials draw a ghost of a decentred lens as the reference does, from light of both sides") {
+  auto triplet = find_lens("cooke-triplet");
+  REQUIRE(triplet.has_value());
+  for (std::size_t k = 0; k < 2; ++k) triplet->surfaces[k].pose.shift_mm = {0.15, 0.0, 0.0};
+  const auto lens = configure_lens(*triplet);
+  REQUIRE(lens.has_value());
+  test::Settings settings = small_frame(*lens, 96, 64);
+  settings.selection = SelectList{{{1, 2}}};
+  const auto fit =
+      fit_polynomials(*lens, {.half_field_rad = 0.15, .max_order = 9, .max_halvings = 0, .ghosts = {{1, 2}}});
+  REQUIRE(fit.has_value());
+  settings.polynomial.fit = std::make_shared<const LensPolynomials>(*fit);
+  for (const Vec2 at : {Vec2{0.62, 0.41}, Vec2{0.45, 0.62}}) {
+    const Light light = light_at(*lens, settings.frame, at);
+    const Flare fitted = flare_of("polynomial", *lens, {&light, 1}, settings);
+    CHECK(fitted.statistics.traced_flux == 0.0);
+    CHECK(psnr_db(truth_of(*lens, light, settings), fitted.image) > 50.0);
+  }
+}

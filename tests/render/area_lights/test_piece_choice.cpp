@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// How lights are divided, and which ghosts share a blur, as errors change steadily from frame to frame.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "render/area_lights/blur_clusters.h"
+#include "render/area_lights/piece_choice.h"
+#include "support/scenes.h"
+
+using namespace contrejour;
+using namespace contrejour::area;
+
+namespace {
+
+constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
+
+double left(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
+
+double left(const GhostOfArea& ghost) {
+  const double here = left(ghost.squares, ghost.across);
+  return ghost.finer > 0.0 ? std::lerp(here, left(ghost.squares, finer_than(ghost.across)), ghost.finer) : here;
+}
+
+// Its place among the divisions, and the part of the next one.
+double place(const GhostOfArea& ghost) {
+  return static_cast<double>(std::ranges::find(kAcross, ghost.across) - kAcross.begin()) + ghost.finer;
+}
+
+std::vector<GhostOfArea> divided(std::initializer_list<double> squares, double allowed) {
+  std::vector<GhostOfArea> ghosts;
+  for (const double one : squares) {
+    ghosts.emplace_back();
+    ghosts.back().squares = one;
+  }
+  choose_pieces(ghosts, {.peak = 1.0, .squares = allowed, .flux = 1.0});
+  return ghosts;
+}
+
+}  // namespace
+
+TEST_CASE("divisions leave the error allowed, the largest errors most divided") {
+  for (const double allowed : {1.5, 0.5, 0.05, 0.005}) {
+    CAPTURE(allowed);
+    const auto ghosts = divided({1.0, 0.3, 0.1, 0.09, 0.001}, allowed);
+    double sum = 0.0;
+    for (const GhostOfArea& ghost : ghosts) sum += left(ghost);
+    const double whole = 1.491, least = left(whole, 12);  // that of the finest divisions does not count
+    CHECK(sum - least == doctest::Approx(std::min(allowed, whole - least)).epsilon(1e-6));
+    for (std::size_t k = 0; k + 1 < ghosts.size(); ++k) CHECK(place(ghosts[k]) >= place(ghosts[k + 1]));
+  }
+}
+
+TEST_CASE("as a ghost's error falls, its division and all others' change steadily") {
+  std::vector<GhostOfArea> before;
+  for (double falling = 3.0; falling > 0.01; falling *= 0.98) {
+    CAPTURE(falling);
+    const auto ghosts = divided({falling, 0.3, 0.1, 0.06}, 0.16);
+    // The order of the ghosts' gains changes on the way. Ghosts that take turns at the last division jump by a whole
+    // one there.
+    for (std::size_t k = 0; k < before.size(); ++k) CHECK(std::abs(place(ghosts[k]) - place(before[k])) < 0.1);
+    before = ghosts;
+  }
+}
+
+TEST_CASE("a line of a ghost that comes into the frame does not change the ghost's blur at once") {
+  // The light moves by a tenth of a pixel each time; once, a part of the outline comes near the frame that moves
+  // otherwise than the part inside it.
+  const LensState lens = test::bundled("heliar", {.f_number = 16.0});
+  const ReflectanceTables tables(lens, lens.design_wavelength_nm);
+  const LensSteps steps(lens, tables);
+  const Frame frame = frame_on_sensor(lens, 160, 90);
+  std::vector<GhostBlur> blurs;
+  for (int k = 68; k < 82; ++k) {
+    const double moved_px = 0.1 * k;
+    Light light =
+        test::light_at(lens, frame, {0.70 + moved_px * std::cos(0.3) / 160, 0.33 + moved_px * std::sin(0.3) / 90});
+    light.radius_rad = kSunRadius_rad;
+    const LightSource source{light.direction};
+    const GhostMotion motion = ghost_motion(steps, {3, 4}, source, LightWindows(lens, source));
+    blurs.push_back(blur_of(motion, pieces_of(light).front(), frame, {}, 1.0));
+  }
+  // The blur's shorter radius fell to a sixth at once.
+  for (std::size_t k = 1; k < blurs.size(); ++k)
+    CHECK(blurs[k].blur_px.x == doctest::Approx(blurs[k - 1].blur_px.x).epsilon(0.3));
+}
+
+TEST_CASE("a ghost that joins another's image does not change its blur") {
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur sharp, wide;  // `wide` has hardly any edge in the frame, so that its own error is small
+  sharp.px = LinearMap{} * 50.0;
+  wide.px = LinearMap{} * 900.0;
+  sharp.level = 1.0;
+  wide.level = 0.9;
+  sharp.blur_px = {0.25, 0.25};
+  wide.blur_px = {4.5, 4.5};
+  sharp.size_px = wide.size_px = {20.0, 20.0};
+  sharp.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {50.0, 0.0}, 1.0, 100.0});
+  const std::vector<PieceGhost> ghosts{{&sharp, 0, 0}, {&wide, 0, 1}};
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  light.radius_rad = kSunRadius_rad;
+  const BlurClusters made = blur_clusters(ghosts, pieces_of(light).front(), frame, 1.0, 0.5);
+  REQUIRE(made.clusters.size() == 1);
+  CHECK(made.clusters.front().px_from_tangents.x.x == doctest::Approx(sharp.px.x.x));
+}
