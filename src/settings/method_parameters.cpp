@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameters of single methods.
 #include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/polynomial_method.h"
 #include "settings/parameter_tables.h"
 
 namespace contrejour::params {
@@ -51,6 +52,10 @@ const Parameter kMethodTable[] = {
     {.name = "fit", .group = "Rendering", .unit = "FILE",
      .help = "polynomial: fit of this lens at these settings, written by `contrejour polynomial fit`; without it, the "
              "ghosts are fitted first"},
+    {.name = "points", .group = "Rendering", .kind = Kind::Integer, .minimum = 0,
+     .maximum = PolynomialRenderOptions::kMostPoints, .fallback = "0",
+     .help = "polynomial: draw each ghost by random points, this many along each side of its opening, in place of "
+             "cells, to compare (sabatschus2022); 0: cells"},
     {.name = "density", .group = "Rendering", .kind = Kind::Real, .minimum = 0.05, .maximum = 16, .fallback = "1",
      .help = "reference: sampling density; 2 halves the side of the cells"},
 };

@@ -26,7 +26,9 @@ GhostOptions ghost_options(const Values& values) {
 }
 
 PolynomialRenderOptions polynomial_options(const Values& values) {
-  return {.error = *parse_error_bound(*values.text("error")), .file = values.text("fit").value_or("")};
+  return {.error = *parse_error_bound(*values.text("error")),
+          .file = values.text("fit").value_or(""),
+          .points = values.integer("points")};
 }
 
 RingingOptions ringing_options(const Values& values) {

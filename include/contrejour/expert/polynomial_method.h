@@ -23,6 +23,11 @@ struct CONTREJOUR_API PolynomialRenderOptions {
   std::shared_ptr<const LensPolynomials> fit = nullptr;
   std::shared_ptr<const LensPolynomialRange> range = nullptr;
   std::filesystem::path file = {};
+  // To compare with: ghosts are drawn by points^2 random points for each light and wavelength, one in each cell of a
+  // grid over the ghost's opening, in place of cells whose number follows from `error`. 0: cells. Ringing, dirt and an
+  // iris with half-tones are refused (Unsupported).
+  static constexpr int kMostPoints = 8192;
+  int points = 0;
 };
 
 }  // namespace contrejour
