@@ -20,7 +20,7 @@ struct Parities {
   Parity x = Parity::Any, y = Parity::Any;
   friend bool operator==(const Parities&, const Parities&) = default;
 };
-// Those of the outputs of a zone: of vectors' x and y, and of all else.
+// The parities of a zone's outputs: of vectors' x, of their y, and of all scalars.
 [[nodiscard]] Parities parities_of_x(const AsymmetricZone& zone);
 [[nodiscard]] Parities parities_of_y(const AsymmetricZone& zone);
 [[nodiscard]] Parities parities_of_scalar(const AsymmetricZone& zone);

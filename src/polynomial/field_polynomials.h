@@ -43,8 +43,8 @@ struct Mirroring {
 // A PreparedSum at a field: its powers by wavelength term.
 struct FieldSum {
   FieldSum(const PreparedSum& sum, double field_coordinate);
-  // Of a zone without axial symmetry, at a direction's coordinates, in powers of the pupil point's x and y. mirrored:
-  // the sum of the mirror image, times -1 where that turns its values round.
+  // A sum of a zone without axial symmetry becomes, at a direction's coordinates, powers of the pupil point's x and y.
+  // mirrored: the sum is that of the mirror image, times -1 where the mirror changes the sign of its values.
   FieldSum(const ChebyshevSum& sum, const Parities& parities, Vec2 s, const Mirroring& mirrored);
 
   [[nodiscard]] PowerSum at(double wavelength_coordinate) const;

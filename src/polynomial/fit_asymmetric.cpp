@@ -60,7 +60,7 @@ AsymmetricZone without_bounds(AsymmetricZone zone) {
 
 AsymmetricZones fit_zones(const AsymmetricProblem& problem, const AsymmetricZone& place, int halvings) {
   AsymmetricZone whole = fit_asymmetric_zone(problem, place);
-  // Where errors are much larger than accepted, a branch point is next to the light, which smaller zones do not avoid.
+  // Errors that are much larger than accepted mean a branch point next to the light, which smaller zones do not avoid.
   constexpr double kWorthHalving = 8.0;
   const bool hopeless = !(whole.accuracy.position_p95_px <= kWorthHalving * problem.options.position_px);
   if (whole.state != ZoneState::Traced || halvings == 0 || hopeless) return {without_bounds(std::move(whole))};
