@@ -80,18 +80,9 @@ void asymmetric_term_values(int degree, const Parities& parities, const Asymmetr
 
 double value_of(const ChebyshevSum& sum, const Parities& parities, const AsymmetricPoint& point, double wavelength) {
   if (sum.degree < 0) return 0.0;
-  const auto count = static_cast<std::size_t>(asymmetric_term_count(sum.degree, parities));
-  std::vector<double> terms(count);
+  std::vector<double> terms(static_cast<std::size_t>(asymmetric_term_count(sum.degree, parities)));
   asymmetric_term_values(sum.degree, parities, point, terms);
-  std::array<double, kMaxWavelengthTerms> by_wavelength{};
-  chebyshev_values(wavelength, by_wavelength);
-  double value = 0.0;
-  for (std::size_t l = 0; l < static_cast<std::size_t>(sum.wavelength_terms); ++l) {
-    double part = 0.0;
-    for (std::size_t k = 0; k < count; ++k) part += static_cast<double>(sum.coefficients[l * count + k]) * terms[k];
-    value += by_wavelength[l] * part;
-  }
-  return value;
+  return value_by_terms(sum, terms, wavelength);
 }
 
 AsymmetricBounds bounds_between(const AsymmetricZone& zone, Vec2 tangents) {

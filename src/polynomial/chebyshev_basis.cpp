@@ -47,13 +47,10 @@ void term_values(int degree, const ZonePoint& point, std::span<double> out) {
   });
 }
 
-double value_of(const ChebyshevSum& sum, const ZonePoint& point, double wavelength) {
-  if (sum.degree < 0) return 0.0;
-  std::array<double, static_cast<std::size_t>(term_count(kMaxDegree))> terms{};
-  term_values(sum.degree, point, terms);
+double value_by_terms(const ChebyshevSum& sum, std::span<const double> terms, double wavelength) {
   std::array<double, kMaxWavelengthTerms> by_wavelength{};
   chebyshev_values(wavelength, by_wavelength);
-  const auto count = static_cast<std::size_t>(term_count(sum.degree));
+  const std::size_t count = terms.size();
   double value = 0.0;
   for (std::size_t l = 0; l < static_cast<std::size_t>(sum.wavelength_terms); ++l) {
     double part = 0.0;
@@ -61,6 +58,13 @@ double value_of(const ChebyshevSum& sum, const ZonePoint& point, double waveleng
     value += by_wavelength[l] * part;
   }
   return value;
+}
+
+double value_of(const ChebyshevSum& sum, const ZonePoint& point, double wavelength) {
+  if (sum.degree < 0) return 0.0;
+  std::array<double, static_cast<std::size_t>(term_count(kMaxDegree))> terms{};
+  term_values(sum.degree, point, terms);
+  return value_by_terms(sum, std::span(terms).first(static_cast<std::size_t>(term_count(sum.degree))), wavelength);
 }
 
 }  // namespace contrejour::inline internal::polynomial

@@ -52,5 +52,7 @@ struct ZonePoint {
 void term_values(int degree, const ZonePoint& point, std::span<double> out);
 
 [[nodiscard]] double value_of(const ChebyshevSum& sum, const ZonePoint& point, double wavelength);
+// The same with the values of all of a basis' terms at a point, of whichever basis the sum has.
+[[nodiscard]] double value_by_terms(const ChebyshevSum& sum, std::span<const double> terms, double wavelength);
 
 }  // namespace contrejour::inline internal::polynomial

@@ -93,30 +93,17 @@ bool DirectSystem::has_enough_rays(int degree) const {
 }
 
 Rows DirectSystem::matrix(int degree, bool of_vectors) const {
-  const auto count = static_cast<std::size_t>(term_count(degree));
-  Rows rows;
-  rows.columns = of_vectors ? 2 * count : count;
-  std::vector<double> terms(count);
-  for (std::size_t k = 0; k < used_.size(); ++k) {
-    const auto& [sensor_mm, stop] = samples_.points[used_[k]];
-    ZonePoint point;
+  std::vector<ZonePoint> points;
+  for (const std::size_t sample : used_) {
+    const auto& [sensor_mm, stop] = samples_.points[sample];
+    ZonePoint& point = points.emplace_back();
     point.h = sensor_mm.x / frame_.max_height_mm;
     point.p = stop * (1.0 / DirectPolynomials::kMargin);
     point.u = 2.0 * point.h * point.h - 1.0;
     point.v = point.h * point.p.x;
     point.w = 2.0 * dot(point.p, point.p) - 1.0;
-    term_values(degree, point, terms);
-    const auto add = [&](double factor) {
-      for (const double term : terms) rows.values.push_back(weight_[k] * factor * term);
-    };
-    if (!of_vectors) {
-      add(1.0);
-      continue;
-    }
-    add(point.h), add(point.p.x);
-    add(0.0), add(point.p.y);
   }
-  return rows;
+  return weighted_rows(degree, of_vectors, points, weight_);
 }
 
 std::vector<ChebyshevVector> DirectSystem::vectors(int degree, std::span<const Member> members) const {

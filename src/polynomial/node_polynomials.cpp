@@ -62,17 +62,17 @@ const LeastSquares& Systems::made(Made& all, int degree, bool of_vectors) {
   return *one;
 }
 
-Rows Systems::matrix(int degree, bool of_vectors) const {
+Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> points, std::span<const double> weights) {
   const auto count = static_cast<std::size_t>(term_count(degree));
   Rows rows;
   rows.columns = of_vectors ? 2 * count : count;
-  rows.values.reserve(weighted_.used.size() * rows.columns * (of_vectors ? 2 : 1));
+  rows.values.reserve(points.size() * rows.columns * (of_vectors ? 2 : 1));
   std::vector<double> terms(count);
-  for (std::size_t k = 0; k < weighted_.used.size(); ++k) {
-    const ZonePoint& point = rays_.points[weighted_.used[k]];
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const ZonePoint& point = points[k];
     term_values(degree, point, terms);
     const auto add = [&](double factor) {
-      for (const double term : terms) rows.values.push_back(weighted_.weight[k] * factor * term);
+      for (const double term : terms) rows.values.push_back(weights[k] * factor * term);
     };
     if (!of_vectors) {
       add(1.0);
@@ -82,6 +82,12 @@ Rows Systems::matrix(int degree, bool of_vectors) const {
     add(0.0), add(point.p.y);
   }
   return rows;
+}
+
+Rows Systems::matrix(int degree, bool of_vectors) const {
+  std::vector<ZonePoint> points;
+  for (const std::size_t ray : weighted_.used) points.push_back(rays_.points[ray]);
+  return weighted_rows(degree, of_vectors, points, weighted_.weight);
 }
 
 NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& value, double negligible) {

@@ -26,7 +26,11 @@ inline constexpr double kRidge = 1e-7;
 [[nodiscard]] ChebyshevSum assembled(int degree, std::size_t count, std::span<const std::vector<double>> solutions,
                                      std::size_t from, double negligible);
 
-// Weighted rows of the basis at the rays: for scalars, or for both coordinates of vectors.
+// Rows of the basis at points, times their weights: one a point for scalars, two for the coordinates of h A + p B.
+[[nodiscard]] Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> points,
+                                 std::span<const double> weights);
+
+// The systems of a zone's rays: for scalars, or for both coordinates of vectors.
 class Systems {
  public:
   Systems(const FitRays& rays, const WeightedRays& weighted) : rays_(rays), weighted_(weighted) {}

@@ -28,8 +28,8 @@ inline constexpr double kStep_px = 0.1;
 struct Flicker {
   std::string system, effects;
   int frames = 0;
-  int worst_frame =
-      0;  // the middle one of the three at which `difference` is the largest, counted from the shot's start
+  // The middle one of the three at which `difference` is the largest, counted from the shot's start.
+  int worst_frame = 0;
   // Second differences of samples that are clipped at the peak, as errors are measured (compare() of metrics.h): as the
   // RMS over the pixels of a frame, over that peak, the largest of all times.
   double rendered = 0.0;  // of the frames
