@@ -48,13 +48,13 @@ struct GhostTessellator::BandPart {
 std::vector<GhostTessellator::BandPart> GhostTessellator::parts_of(const FirstRays& rays, const Band& band) const {
   const std::size_t passes = band.last - band.first, count = std::min<std::size_t>(passes, 3);
   std::vector<BandPart> parts(count);
-  std::array<double, 3> sum{}, size{};
-  std::vector<std::array<double, 3>> light(count);
+  Rgb sum{}, size{};
+  std::vector<Rgb> light(count);
   for (std::size_t part = 0; part < count; ++part) {
     const std::size_t from = band.first + part * passes / count, to = band.first + (part + 1) * passes / count;
     parts[part].middle = (from + to) / 2;
     for (std::size_t k = from; k < to; ++k) {
-      const auto of_pass = light_of(rays, tracers_.passes(), k);
+      const Rgb of_pass = light_of(rays, tracers_.passes(), k);
       for (std::size_t c = 0; c < 3; ++c) light[part][c] += of_pass[c];
     }
     for (std::size_t c = 0; c < 3; ++c) sum[c] += light[part][c], size[c] += std::abs(light[part][c]);

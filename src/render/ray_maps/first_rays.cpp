@@ -188,16 +188,15 @@ std::vector<double> light_factors(const WavelengthSamples& samples, std::size_t 
   return is_linear ? samples.linear_weights(count, pass) : samples.factors(count, pass);
 }
 
-std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass) {
-  std::array<double, 3> light{};
+Rgb light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass) {
   const auto traced = std::ranges::find_if(rays.ray_sets, [](const LobattoRays& set) { return set.nodes > 0; });
   const std::vector<float>& transmission = rays.transmission[pass];
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto gain = static_cast<float>(passes[pass].gain[c]);
-    for (std::size_t node = 0; node < transmission.size(); ++node)
-      if (!traced->arrives(node) || traced->counts(node))
-        light[c] += std::isfinite(transmission[node]) ? gain * transmission[node] : 0.0F;
-  }
+  double sum = 0.0;
+  for (std::size_t node = 0; node < transmission.size(); ++node)
+    if ((!traced->arrives(node) || traced->counts(node)) && std::isfinite(transmission[node]))
+      sum += transmission[node];
+  Rgb light = passes[pass].gain;
+  for (double& of_channel : light) of_channel *= sum;
   return light;
 }
 

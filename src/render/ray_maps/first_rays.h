@@ -3,7 +3,6 @@
 // decided from them.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -41,7 +40,6 @@ struct FirstRaysOptions {
                                                 bool is_linear);
 
 // The light of a pass, summed over the nodes.
-[[nodiscard]] std::array<double, 3> light_of(const FirstRays& rays, std::span<const PlannedPass> passes,
-                                             std::size_t pass);
+[[nodiscard]] Rgb light_of(const FirstRays& rays, std::span<const PlannedPass> passes, std::size_t pass);
 
 }  // namespace contrejour::inline internal::ray_maps

@@ -235,7 +235,7 @@ TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too"
 namespace {
 
 // The error that band_error() predicts, summed over pixels: edges are steps, each pixel is the mean of its points.
-double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
+double counted_error(std::span<const SpectralEdge> edges, double drawn_px, std::size_t channel) {
   constexpr int kOffsets = 200, kReach_px = 12;
   double sum = 0.0;
   for (int offset = 0; offset < kOffsets; ++offset) {
@@ -243,25 +243,36 @@ double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
       const double left = pixel + (offset + 0.5) / kOffsets;
       const auto right_of = [&](double edge_px) { return std::clamp(left + 1.0 - edge_px, 0.0, 1.0); };
       double off = 0.0;
-      for (const SpectralEdge& edge : edges) off += edge.light * (right_of(edge.position_px) - right_of(drawn_px));
+      for (const SpectralEdge& edge : edges)
+        off += edge.light[channel] * (right_of(edge.position_px) - right_of(drawn_px));
       sum += off * off / kOffsets;
     }
   }
   return sum;
 }
 
+double counted_error(std::span<const SpectralEdge> edges, double drawn_px) {
+  double sum = 0.0;
+  for (std::size_t channel = 0; channel < 3; ++channel) sum += counted_error(edges, drawn_px, channel);
+  return sum / 3.0;
+}
+
+SpectralEdge white_edge(double position_px, double light) { return {position_px, {light, light, light}}; }
+
 }  // namespace
 
 TEST_CASE("edges drawn at one position are as wrong as counted pixel by pixel") {
-  const std::vector<SpectralEdge> far{{-4.3, 0.2}, {-1.1, 0.1}, {0.4, 0.3}, {2.0, 0.15}, {5.5, 0.25}};
-  const std::vector<SpectralEdge> near{{-0.21, 0.2}, {-0.05, 0.5}, {0.3, 0.3}};
-  for (const auto& edges : {far, near}) {
+  const std::vector<SpectralEdge> far{white_edge(-4.3, 0.2), white_edge(-1.1, 0.1), white_edge(0.4, 0.3),
+                                      white_edge(2.0, 0.15), white_edge(5.5, 0.25)};
+  const std::vector<SpectralEdge> near{white_edge(-0.21, 0.2), white_edge(-0.05, 0.5), white_edge(0.3, 0.3)};
+  const std::vector<SpectralEdge> coloured{{-0.9, {0.0, 0.1, 0.8}}, {0.1, {0.1, 0.9, 0.2}}, {1.4, {0.7, 0.2, 0.0}}};
+  for (const auto& edges : {far, near, coloured}) {
     for (const double drawn_px : {0.0, 0.4, middle_of_light(edges)})
       CHECK(band_error(edges, drawn_px) == doctest::Approx(counted_error(edges, drawn_px)).epsilon(2e-3));
   }
   // Displacements of less than a pixel cancel about the middle of the light.
   CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().position_px));
-  const std::vector<SpectralEdge> one{{3.0, 1.0}};
+  const std::vector<SpectralEdge> one{white_edge(3.0, 1.0)};
   CHECK(band_error(one, 3.0) == 0.0);
 }
 

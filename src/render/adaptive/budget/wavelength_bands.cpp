@@ -2,7 +2,6 @@
 #include "render/adaptive/budget/wavelength_bands.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -27,44 +26,33 @@ double shift_mm(const LobattoRays& a, const LobattoRays& b) {
   return largest;
 }
 
-// The fraction of the light that each pass carries.
-std::vector<double> light_fractions(const FirstRays& rays, std::span<const PlannedPass> passes) {
-  std::vector<double> fractions;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    const auto light = light_of(rays, passes, k);
-    fractions.push_back(std::abs(light[0]) + std::abs(light[1]) + std::abs(light[2]));
-    sum += fractions.back();
-  }
-  for (double& fraction : fractions) fraction = sum > 0.0 ? fraction / sum : 1.0 / static_cast<double>(passes.size());
-  return fractions;
-}
-
-// The light of each channel, over that of the brightest one.
-std::array<std::vector<double>, 3> channel_fractions(const FirstRays& rays, std::span<const PlannedPass> passes) {
-  std::array<std::vector<double>, 3> fractions;
+// The edges of all passes on a line along which the ghost moves, with their light over that of the brightest channel.
+std::vector<SpectralEdge> edges_of(const FirstRays& rays, std::span<const PlannedPass> passes,
+                                   const WavelengthSamples& samples, double pixel_pitch_mm) {
+  const double half_shift_px = 0.5 * shift_mm(rays.ray_sets.front(), rays.ray_sets.back()) / pixel_pitch_mm;
+  std::vector<SpectralEdge> edges;
   Rgb sum{};
   for (std::size_t k = 0; k < passes.size(); ++k) {
-    const auto light = light_of(rays, passes, k);
-    for (std::size_t c = 0; c < 3; ++c) {
-      fractions[c].push_back(std::abs(light[c]));
-      sum[c] += std::abs(light[c]);
+    SpectralEdge edge{half_shift_px * samples.position(k), light_of(rays, passes, k)};
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      edge.light[c] = std::abs(edge.light[c]);
+      sum[c] += edge.light[c];
     }
+    edges.push_back(edge);
   }
   const double brightest = *std::ranges::max_element(sum);
-  for (auto& of_channel : fractions)
-    for (double& fraction : of_channel) fraction = brightest > 0.0 ? fraction / brightest : 0.0;
-  return fractions;
+  for (SpectralEdge& edge : edges)
+    for (double& light : edge.light) light = brightest > 0.0 ? light / brightest : 0.0;
+  return edges;
 }
 
 // Bands of neighbouring passes, which are merged step by step.
 class Joined {
  public:
   // between: a band may be drawn between the positions of its passes. farthest_px: the largest distance of any edge
-  // from where its band is drawn. channels: the light of each edge by channel. The error is the mean of the channels':
-  // in the sum over all wavelengths, the displacements of a ghost's red and blue rims would cancel.
-  Joined(std::vector<SpectralEdge> edges, std::array<std::vector<double>, 3> channels, bool between, double farthest_px)
-      : edges_(std::move(edges)), channels_(std::move(channels)), between_(between), farthest_px_(farthest_px) {
+  // from where its band is drawn.
+  Joined(std::vector<SpectralEdge> edges, bool between, double farthest_px)
+      : edges_(std::move(edges)), between_(between), farthest_px_(farthest_px) {
     for (std::size_t k = 0; k <= edges_.size(); ++k) ends_.push_back(k);
     wrong_.assign(edges_.size(), 0.0);
     for (std::size_t k = 0; k + 1 < edges_.size(); ++k) with_next_.push_back(error_of(k, k + 2));
@@ -92,9 +80,9 @@ class Joined {
     for (std::size_t k = 0; k + 1 < ends_.size(); ++k) {
       Band band{ends_[k], ends_[k + 1], {}};
       double light = 0.0;
-      for (const SpectralEdge& edge : of(band.first, band.last)) light += edge.light;
+      for (const SpectralEdge& edge : of(band.first, band.last)) light += all_light(edge);
       for (const SpectralEdge& edge : of(band.first, band.last))
-        if (between_ && light > 0.0) band.mix.push_back(edge.light / light);
+        if (between_ && light > 0.0) band.mix.push_back(all_light(edge) / light);
       out.push_back(std::move(band));
     }
     return out;
@@ -109,13 +97,7 @@ class Joined {
     const double drawn_px = between_ ? middle_of_light(edges) : edges_[Band{first, last, {}}.middle()].position_px;
     for (const SpectralEdge& edge : edges)
       if (std::abs(edge.position_px - drawn_px) > farthest_px_) return std::numeric_limits<double>::infinity();
-    double sum = 0.0;
-    std::vector<SpectralEdge> of_channel(edges.begin(), edges.end());
-    for (const std::vector<double>& light : channels_) {
-      for (std::size_t k = 0; k < of_channel.size(); ++k) of_channel[k].light = light[first + k];
-      sum += band_error(of_channel, drawn_px);
-    }
-    return sum / static_cast<double>(channels_.size());
+    return band_error(edges, drawn_px);
   }
   [[nodiscard]] double more(std::size_t k) const { return with_next_[k] - wrong_[k] - wrong_[k + 1]; }
   [[nodiscard]] std::size_t cheapest() const {
@@ -126,7 +108,6 @@ class Joined {
   }
 
   std::vector<SpectralEdge> edges_;  // of all passes
-  std::array<std::vector<double>, 3> channels_;
   bool between_;
   double farthest_px_;
   std::vector<std::size_t> ends_;  // first pass of each band, and the end
@@ -138,11 +119,7 @@ class Joined {
 std::vector<Band> bands_for(const FirstRays& rays, std::span<const PlannedPass> passes,
                             const WavelengthSamples& samples, double pixel_pitch_mm, std::size_t pieces) {
   if (passes.size() == 1) return {{0, 1, {}}};
-  const double half_shift_px = 0.5 * shift_mm(rays.ray_sets.front(), rays.ray_sets.back()) / pixel_pitch_mm;
-  const std::vector<double> fractions = light_fractions(rays, passes);
-  std::vector<SpectralEdge> edges;
-  for (std::size_t k = 0; k < passes.size(); ++k) edges.push_back({half_shift_px * samples.position(k), fractions[k]});
-  Joined joined(std::move(edges), channel_fractions(rays, passes), rays.samples > 0, rays.tolerance.colour_px);
+  Joined joined(edges_of(rays, passes, samples, pixel_pitch_mm), rays.samples > 0, rays.tolerance.colour_px);
   // Items share out the squared error as if theirs were independent. All pieces of a light have the same bands, though,
   // whose errors add up: in squares to n times those of independent ones.
   const double apart = std::pow(kBandFraction * rays.tolerance.position_px, 2.0);
