@@ -2,6 +2,7 @@
 // Work on other threads: the latest request is answered, drafts come first, pictures are the command line's.
 #include <atomic>
 #include <chrono>
+#include <numeric>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -246,9 +247,11 @@ TEST_CASE("figures are those of the light that is asked for, and the section has
   CHECK(ghosts_under(figures, {1e9, 0}).empty());
 
   // Footprints have their figures' middle and size.
-  REQUIRE(answers[0].footprints.size() == kMostFootprints);
+  REQUIRE(answers[0].footprints.size() == figures.size());
+  CHECK(std::ranges::count_if(answers[0].footprints, [](const auto& f) { return !f.cells_px.empty(); }) <=
+        static_cast<std::ptrdiff_t>(kFootprintsByFlux + kFootprintsByPeak));
   int traced = 0;
-  for (std::size_t k = 0; k < kMostFootprints; ++k) {
+  for (std::size_t k = 0; k < kFootprintsByFlux; ++k) {
     const GhostFootprint& footprint = answers[0].footprints[k];
     if (footprint.cells_px.size() < 60 || figures[k].in_focus) continue;
     Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
@@ -261,6 +264,7 @@ TEST_CASE("figures are those of the light that is asked for, and the section has
     CHECK(std::fabs(high.x - low.x - figures[k].size_px.x) < tolerance);
     CHECK(std::fabs(high.y - low.y - figures[k].size_px.y) < tolerance);
     CHECK_FALSE(footprint.contains({high.x + 10, high.y + 10}, 3));
+    CHECK(std::accumulate(footprint.cell_light.begin(), footprint.cell_light.end(), 0.0) == doctest::Approx(1.0));
     ++traced;
   }
   CHECK(traced > 5);

@@ -31,7 +31,7 @@ TEST_CASE("layers, lens, look and report are exported; wrong names are refused")
   Studio studio("first", small_scene(), {});
   run_until_idle(studio);
   const auto exported = [&](ExportKind kind, const char* name) {
-    studio.export_as(kind, (folder / name).string());
+    if (!studio.export_as(kind, (folder / name).string())) return studio.problem();
     run_until_idle(studio);
     return studio.message();
   };

@@ -123,9 +123,15 @@ TEST_CASE("an export is the picture that is shown, and a wrong name is told apar
   const auto picture = read_picture(std::filesystem::path(file));
   REQUIRE(picture);
   CHECK(picture->rgb.pixels == studio.shown().picture.image->pixels);
-  studio.export_as(ExportKind::Picture, (folder / "flare.doc").string());
-  run_until_idle(studio);
-  CHECK(studio.message().find(".exr or .png") != std::string::npos);
+  CHECK_FALSE(studio.export_as(ExportKind::Picture, (folder / "flare.doc").string()));
+  CHECK(studio.problem().find(".exr or .png") != std::string::npos);
+  CHECK_FALSE(studio.export_as(ExportKind::Picture, (folder / "no-such-folder" / "flare.exr").string()));
+  CHECK(studio.problem().find("no-such-folder") != std::string::npos);
+  CHECK(would_replace(ExportKind::Picture, file, 1, 1));
+  CHECK_FALSE(would_replace(ExportKind::Picture, (folder / "other.exr").string(), 1, 1));
+  std::filesystem::copy_file(file, folder / "flare.0003.exr");
+  CHECK(would_replace(ExportKind::Frames, (folder / "flare.####.exr").string(), 1, 3));
+  CHECK_FALSE(would_replace(ExportKind::Frames, (folder / "flare.####.exr").string(), 4, 9));
 }
 
 TEST_CASE("a plate gives the picture its size") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies of unsaved work in a folder of the user's state, so that a crash loses a minute at most. Each running studio
+// Copies of unsaved work in a folder of the user's state, so that a crash loses seconds. Each running studio
 // has a file of its own, which it removes when it ends; a file whose program no longer runs is offered again.
 // Errors: Io. Thread-safety: one thread at a time.
 #pragma once
@@ -27,12 +27,12 @@ struct LostWork {
 
 class Autosave {
  public:
-  static constexpr std::chrono::seconds kInterval{60};
+  static constexpr std::chrono::seconds kInterval{5};
 
   // An empty folder: nothing is saved or offered.
   explicit Autosave(std::filesystem::path folder);
 
-  // Writes a copy if the document has changed and a minute has passed since the last one, or `now`.
+  // Writes a copy if the document has changed and the interval has passed since the last look, or `now`.
   Result<void> save(const Document& document, const std::string& of_file, bool now = false);
   // The work was saved, or is not wanted: removes this program's copy.
   void forget();

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/settings.h"
 #include "contrejour/preset.h"
 
 namespace contrejour::studio {
@@ -19,6 +21,14 @@ std::shared_ptr<const Prescription> shared(Prescription lens) {
 void take_values(const params::Values& values, ValueTexts& texts) {
   for (const params::Parameter& p : params::all_parameters())
     if (values.given(p.name)) texts[std::string(p.name)] = values.list(p.name);
+}
+
+// Whether the media on both sides of the surface (from 1) differ.
+bool bounds_glass(const Prescription& lens, int surface) {
+  if (surface < 1 || static_cast<std::size_t>(surface) > lens.surfaces.size()) return false;
+  const auto row = static_cast<std::size_t>(surface) - 1;
+  const Glass before = row > 0 ? lens.surfaces[row - 1].glass_after : air();
+  return lens.surfaces[row].kind != SurfaceKind::Stop && !(before == lens.surfaces[row].glass_after);
 }
 
 SessionPlate plate_in_folder(SessionPlate plate, const std::filesystem::path& session_file) {
@@ -73,8 +83,9 @@ Result<Document> document_with_lens(const Document& scene, const std::string& le
   document.lens_name = lens_name;
   document.lens = shared(std::move(*lens));
   document.lens_was_edited = false;
-  // These name surfaces, ghosts and numbers of the lens before.
-  for (const char* name : {"focal", "fnumber", "ghost", "coating-at", "select"}) document.texts.erase(name);
+  // These belong to the lens before.
+  for (const char* name : {"focal", "ghost", "coating", "coating-at", "select"}) document.texts.erase(name);
+  if (!params::lens_of(*document.lens, document.values())) document.texts.erase("fnumber");
   return document;
 }
 
@@ -151,6 +162,13 @@ Document without_value(Document document, std::string_view name) {
 Document with_edited_lens(Document document, Prescription lens) {
   document.lens = shared(std::move(lens));
   document.lens_was_edited = true;
+  if (const auto coatings = document.texts.find("coating-at"); coatings != document.texts.end()) {
+    std::erase_if(coatings->second, [&](const std::string& text) {
+      const auto coating = params::parse_coating_at(text);
+      return !coating || !bounds_glass(*document.lens, coating->surface);
+    });
+    if (coatings->second.empty()) document.texts.erase(coatings);
+  }
   return document;
 }
 

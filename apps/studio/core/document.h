@@ -38,7 +38,8 @@ struct Document {
 
 // The scene of the first start.
 [[nodiscard]] Document first_document();
-// A lens with the lights, size and exposure of another document.
+// A lens with the lights, size, exposure and f-number of another document, and with its own coatings. An f-number that
+// it does not have becomes its widest.
 [[nodiscard]] Result<Document> document_with_lens(const Document& scene, const std::string& lens_name);
 // A preset in the scene of another document.
 [[nodiscard]] Result<Document> document_with_preset(const Document& scene, const std::string& preset_name);
@@ -57,6 +58,7 @@ struct Document {
 // The picture then has the plate's size. Its own lights are not sought while the user's lights stand for them.
 [[nodiscard]] Document with_plate(Document document, const SessionPlate& plate, int width, int height);
 [[nodiscard]] Document without_plate(Document document);
+// Coatings of surfaces that no longer bound glass are left out.
 [[nodiscard]] Document with_edited_lens(Document document, Prescription lens);
 
 }  // namespace contrejour::studio

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/core/exports.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "contrejour/expert/apply_files.h"
+#include "contrejour/expert/frame_pattern.h"
 #include "contrejour/expert/picture_layers.h"
 #include "contrejour/expert/source_renderer.h"
 #include "contrejour/expert/write_lens.h"
@@ -136,6 +139,20 @@ std::string usual_file(ExportKind kind) {
   static constexpr const char* files[] = {"flare.exr", "layers.exr", "flare.####.exr",
                                           "lens.toml", "look.toml",  "report.html"};
   return files[static_cast<std::size_t>(kind)];
+}
+
+Result<void> check_export(const ExportOrder& order) {
+  if (auto ok = check_name(order); !ok) return ok;
+  const auto file = OutputFile::create(order.file);  // goes away without a commit
+  return file ? Result<void>() : tl::unexpected(file.error());
+}
+
+bool would_replace(ExportKind kind, const std::string& file, int first_frame, int last_frame) {
+  std::error_code code;
+  if (kind != ExportKind::Frames) return std::filesystem::is_regular_file(file, code);
+  const auto pattern = parse_frame_pattern(file);
+  const auto frames = pattern ? frames_on_disk(*pattern) : Result<std::vector<int>>(std::vector<int>());
+  return frames && std::ranges::any_of(*frames, [&](int frame) { return frame >= first_frame && frame <= last_frame; });
 }
 
 Result<void> export_file(const ExportOrder& order, const Context& context) {

@@ -34,6 +34,11 @@ struct ExportOrder {
   std::vector<GhostFigures> figures = {};  // for the report
 };
 
+// Whether the file's name fits and the folder can be written to, without writing.
+[[nodiscard]] Result<void> check_export(const ExportOrder& order);
+// Whether the export would replace a file, of frames in this range any file.
+[[nodiscard]] bool would_replace(ExportKind kind, const std::string& file, int first_frame, int last_frame);
+
 // At full quality. Frames are exported by frame_export.h.
 [[nodiscard]] Result<void> export_file(const ExportOrder& order, const Context& context = {});
 

@@ -28,7 +28,7 @@ struct FiguresAnswer {
   std::uint64_t revision = 0;
   std::size_t light = 0;
   std::vector<GhostFigures> figures;  // pixels are those of --size
-  std::vector<GhostFootprint> footprints;  // of the first of them
+  std::vector<GhostFootprint> footprints;  // one for each of them (ghost_footprint.h)
   std::string error;
 };
 

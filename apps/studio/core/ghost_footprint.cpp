@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,6 +27,7 @@ struct Landing {
   bool is_ray = false;  // it reaches the sensor, if nothing blocks it
   Vec2 sensor_mm;
   double blocked = 1;  // <= 0: it gets through
+  double transmission = 0;
   [[nodiscard]] bool is_lit() const { return is_ray && blocked <= 0; }
 };
 using Landings = std::vector<Landing>;
@@ -42,7 +45,8 @@ Landings land(const OpticalPath& path, const LensState& lens, const LightSource&
       const Vec3 point{place.x, place.y, z_mm};
       const TracedRay ray = trace(path, {point, source.direction_at(point)});
       const bool is_ray = ray.status == RayStatus::Ok;
-      landings.push_back({is_ray, ray.sensor_mm, is_ray ? blocked_by(ray, path, lens.iris) : 1.0});
+      landings.push_back(
+          {is_ray, ray.sensor_mm, is_ray ? blocked_by(ray, path, lens.iris) : 1.0, is_ray ? ray.transmission : 0.0});
     }
   return landings;
 }
@@ -63,19 +67,47 @@ std::optional<Window> lit_part(const Landings& landings, const Window& window) {
                 window.at(std::min(kSide - 1, right + 1), std::min(kSide - 1, bottom + 1))};
 }
 
-// The lit part of a cell: its lit corners, and the points between a lit and a blocked one where the border is.
+double area_of(const std::vector<Vec2>& polygon) {
+  double twice = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return 0.5 * std::fabs(twice);
+}
+
+Vec2 middle_of(const std::vector<Vec2>& polygon) {
+  Vec2 sum{};
+  for (const Vec2 p : polygon) sum = sum + p;
+  return sum * (1.0 / static_cast<double>(polygon.size()));
+}
+
+// The lit part of a cell: its lit corners, and the points between a lit and a blocked one where the border is. The
+// cell's light is its area in the pupil, in cells, times its transmittance, until all are known.
 void add_cell(const std::array<const Landing*, 4>& corners, const Frame& frame, GhostFootprint& footprint) {
-  std::vector<Vec2> polygon, crossings;
+  constexpr std::array<Vec2, 4> kPupilCorners = {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
+  std::vector<Vec2> polygon, in_pupil, crossings;
+  double transmission = 0, lit = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Landing &here = *corners[k], &next = *corners[(k + 1) % corners.size()];
-    if (here.is_lit()) polygon.push_back(frame.pixel_from_sensor(here.sensor_mm));
+    const std::size_t after = (k + 1) % corners.size();
+    const Landing &here = *corners[k], &next = *corners[after];
+    if (here.is_lit()) {
+      polygon.push_back(frame.pixel_from_sensor(here.sensor_mm));
+      in_pupil.push_back(kPupilCorners[k]);
+      transmission += here.transmission;
+      ++lit;
+    }
     if (here.is_lit() == next.is_lit()) continue;
     const double part = here.blocked / (here.blocked - next.blocked);
     const Vec2 crossing = frame.pixel_from_sensor(here.sensor_mm + (next.sensor_mm - here.sensor_mm) * part);
     polygon.push_back(crossing);
+    in_pupil.push_back(kPupilCorners[k] + (kPupilCorners[after] - kPupilCorners[k]) * part);
     crossings.push_back(crossing);
   }
-  if (polygon.size() >= 3) footprint.cells_px.push_back(std::move(polygon));
+  if (polygon.size() >= 3) {
+    footprint.cells_px.push_back(std::move(polygon));
+    footprint.cell_light.push_back(area_of(in_pupil) * transmission / lit);
+  }
   for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
     footprint.border_px.push_back({crossings[k], crossings[k + 1]});
 }
@@ -104,8 +136,21 @@ bool GhostFootprint::contains(Vec2 p, double reach_px) const {
          std::ranges::any_of(border_px, [&](const auto& side) { return distance_to_side(side, p) <= reach_px; });
 }
 
+// Cells smaller than the disc, as where light is focused, count by their middle.
+double GhostFootprint::irradiance_at(Vec2 p, double radius_px) const {
+  const double disc_px2 = std::numbers::pi * radius_px * radius_px;
+  double sum = 0;
+  for (std::size_t k = 0; k < cells_px.size(); ++k) {
+    const double area = area_of(cells_px[k]);
+    const Vec2 away = middle_of(cells_px[k]) - p;
+    const bool is_here = area < disc_px2 ? std::hypot(away.x, away.y) <= radius_px : is_inside(cells_px[k], p);
+    if (is_here) sum += cell_light[k] / std::fmax(area, disc_px2);
+  }
+  return sum;
+}
+
 GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light, const Frame& frame) {
-  GhostFootprint footprint{ghost, {}, {}};
+  GhostFootprint footprint{ghost, {}, {}, {}};
   const OpticalPath path = ghost_path(lens, ghost, lens.design_wavelength_nm);
   const LightSource source = light.source();
   const EntranceWindow entrance = entrance_window(lens, source);
@@ -121,14 +166,25 @@ GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Lig
       if (std::ranges::all_of(corners, [](const Landing* corner) { return corner->is_ray; }))
         add_cell(corners, frame, footprint);
     }
+  double all = 0;
+  for (const double light_of_cell : footprint.cell_light) all += light_of_cell;
+  for (double& light_of_cell : footprint.cell_light) light_of_cell = all > 0 ? light_of_cell / all : 0;
   return footprint;
 }
 
 std::vector<GhostFootprint> footprints_of(const LensState& lens, const std::vector<GhostFigures>& figures,
                                           const Light& light, const Frame& frame, const Context& context) {
+  std::vector<std::size_t> chosen(figures.size());
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  const std::size_t by_flux = std::min(kFootprintsByFlux, chosen.size());
+  std::stable_sort(
+      chosen.begin() + static_cast<std::ptrdiff_t>(by_flux), chosen.end(),
+      [&](std::size_t a, std::size_t b) { return figures[a].peak_irradiance > figures[b].peak_irradiance; });
+  chosen.resize(std::min(by_flux + kFootprintsByPeak, chosen.size()));
   std::vector<GhostFootprint> footprints;
-  for (std::size_t k = 0; k < std::min(kMostFootprints, figures.size()) && !context.cancelled(); ++k)
-    footprints.push_back(footprint_of(lens, figures[k].ghost, light, frame));
+  for (const GhostFigures& f : figures) footprints.push_back({f.ghost, {}, {}, {}});
+  for (const std::size_t k : chosen)
+    if (!context.cancelled()) footprints[k] = footprint_of(lens, figures[k].ghost, light, frame);
   return footprints;
 }
 

@@ -18,17 +18,21 @@ namespace contrejour::studio {
 struct GhostFootprint {
   Ghost ghost;
   std::vector<std::vector<Vec2>> cells_px;  // polygons in the frame; empty: no ray of the grid gets through
+  std::vector<double> cell_light;  // of each cell, the fraction of the ghost's light, at the design wavelength
   std::vector<std::array<Vec2, 2>> border_px;  // pieces of the outline
 
   // Whether a cell contains the point, or it is nearer to the ghost than this.
   [[nodiscard]] bool contains(Vec2 point_px, double reach_px) const;
+  // The fraction of the ghost's light on a pixel at the point, as a mean over at least a disc of this radius.
+  [[nodiscard]] double irradiance_at(Vec2 point_px, double radius_px) const;
 };
 
 [[nodiscard]] GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light,
                                           const Frame& frame);
 
-// The number of ghosts, from the first on, that are traced: it takes no longer than a user notices.
-inline constexpr std::size_t kMostFootprints = 40;
+// Those of as many ghosts, from the first on, and of as many others with the highest peaks: it takes no longer than a
+// user notices. One for each of the figures; without cells if it was not traced.
+inline constexpr std::size_t kFootprintsByFlux = 40, kFootprintsByPeak = 20;
 [[nodiscard]] std::vector<GhostFootprint> footprints_of(const LensState& lens, const std::vector<GhostFigures>& figures,
                                                         const Light& light, const Frame& frame, const Context& context);
 

@@ -11,7 +11,8 @@
 
 namespace contrejour::studio {
 
-// Indices into the figures, by the mean irradiance there, the brightest first. footprints: of the first figures.
+// Indices into the figures, by the irradiance at the point, the brightest first. footprints: one for each of the
+// figures, or none.
 [[nodiscard]] std::vector<std::size_t> ghosts_under(const std::vector<GhostFigures>& figures, Vec2 point_px,
                                                     std::span<const GhostFootprint> footprints = {});
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "contrejour/expert/parameter_text.h"
 #include "contrejour/expert/settings.h"
 #include "studio/core/keys.h"
 #include "studio/core/lights.h"
@@ -43,7 +44,7 @@ Studio::Studio(std::string how_opened, Document first, StudioSettings settings)
       looks_(all_looks(settings.looks.own)), autosave_(settings.autosave_folder),
       picture_job_(picture_work(), settings.wake), display_job_(display_work(), settings.wake, JobPriority::Interface),
       figures_job_(figures_work(), settings.wake), section_job_(section_work(), settings.wake, JobPriority::Interface),
-      export_job_([](const std::function<std::string()>& work, auto& control) { control.publish(work()); },
+      export_job_([](const ExportTask& task, auto& control) { control.publish({task.file, task.write()}); },
                   settings.wake),
       plates_(settings.wake), detection_job_(detection_work(), settings.wake), views_job_(views_work(), settings.wake),
       compare_job_(compare_work(), settings.wake), thumbnail_job_(thumbnail_work(), settings.wake),
@@ -90,6 +91,11 @@ bool Studio::push(Result<Document> document, const std::string& name, const std:
   lens_ = std::make_shared<const LensState>(std::move(*lens));
   document_changed();
   return true;
+}
+
+Vec2 Studio::frame_px() const {
+  const auto size = params::parse_size(document().text("size"));
+  return size ? Vec2{static_cast<double>(size->width), static_cast<double>(size->height)} : Vec2{1920, 1080};
 }
 
 void Studio::undo() { go_to_step(history_.can_undo() ? history_.position() - 1 : history_.position()); }
@@ -141,6 +147,7 @@ void Studio::refresh_section() {
 
 void Studio::select_ghost(std::optional<Ghost> ghost) {
   selection.ghost = ghost;
+  if (ghost && !ghost->reflects_at(selection.surface)) selection.surface = ghost->j;  // whose coating one changes
   refresh_section();
 }
 

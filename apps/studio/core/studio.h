@@ -38,6 +38,15 @@ struct Selection {
   int surface = 0;  // 1-based; 0: none
 };
 
+struct ExportTask {
+  std::string file;
+  std::function<std::string()> write;  // what went wrong; empty: nothing
+};
+
+struct ExportAnswer {
+  std::string file, error;  // error: empty if it was written
+};
+
 struct StudioSettings {
   std::function<void()> wake = {};  // called on other threads when an answer can be taken
   std::filesystem::path autosave_folder = {};
@@ -68,7 +77,7 @@ class Studio {
   bool save_look(const std::string& name);  // among the user's own
   bool recover(const LostWork& work);
   bool save_session(const std::string& file);
-  // Renders again at full quality and writes it, by the extension, on another thread.
+  // Renders again at full quality and writes it, by the extension, on another thread. False: it could not be written.
   bool export_as(ExportKind kind, const std::string& file, LayersBy layers_by = LayersBy::Part);
   void stop_exporting_frames();
 
@@ -95,6 +104,7 @@ class Studio {
 
   [[nodiscard]] const Document& document() const { return history_.now(); }
   [[nodiscard]] const LensState& lens() const { return *lens_; }
+  [[nodiscard]] Vec2 frame_px() const;  // the picture's width and height
   [[nodiscard]] const History& history() const { return history_; }
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   [[nodiscard]] const std::string& problem() const { return problem_; }
@@ -109,7 +119,7 @@ class Studio {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
   [[nodiscard]] std::uint64_t shown_count() const { return shown_count_; }  // of pictures taken so far
   [[nodiscard]] const std::vector<GhostFigures>& figures() const { return figures_; }
-  [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // of the first figures
+  [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // one a figure
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
   [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate, view.frame); }
@@ -159,6 +169,7 @@ class Studio {
   void take_plate(PlateAnswer answer);
   void take_new_plate(const PlateAnswer& answer);
   void take_detection(const DetectionAnswer& answer);
+  void take_export(const ExportAnswer& answer);
   void take_exported_frames(const FramesAnswer& answer);
   void take_background_work();
   void show_playing_frame();
@@ -200,7 +211,7 @@ class Studio {
   DisplayJob display_job_;
   FiguresJob figures_job_;
   SectionJob section_job_;
-  LatestJob<std::function<std::string()>, std::string> export_job_;
+  LatestJob<ExportTask, ExportAnswer> export_job_;
   Plates plates_;
   DetectionJob detection_job_;
   ViewsJob views_job_;

@@ -16,7 +16,11 @@
 namespace contrejour::studio {
 
 bool Studio::open_lens(const std::string& name_or_file) {
-  return adopt(document_with_lens(document(), name_or_file), fmt::format("open lens {}", name_or_file), "");
+  const bool had_coating = document().texts.contains("coating") || document().texts.contains("coating-at");
+  if (!adopt(document_with_lens(document(), name_or_file), fmt::format("open lens {}", name_or_file), "")) return false;
+  say(fmt::format("{} at f/{:.3g}{}", document().lens->name, lens_->f_number,
+                  had_coating ? ", with its own coatings in place of those that were set" : ""));
+  return true;
 }
 
 void Studio::take_view(const Document& document) {
@@ -164,13 +168,14 @@ void Studio::take_exported_frames(const FramesAnswer& answer) {
 bool Studio::export_as(ExportKind kind, const std::string& file, LayersBy layers_by) {
   problem_.clear();
   if (kind == ExportKind::Frames) return export_frames(file);
-  message_ = fmt::format("writing {} ...", file);
   ExportOrder order{kind, file, document(), lens_, plate(), layers_by, figures_};
+  if (auto ok = check_export(order); !ok) return refuse(ok.error(), "export");
+  message_ = fmt::format("writing {} ...", file);
   order.document.plate = plate_at(document().plate, view.frame);
-  export_job_.post([order = std::move(order)] {
-    const auto done = export_file(order);
-    return done ? fmt::format("wrote {}", order.file) : done.error().to_string();
-  });
+  export_job_.post({file, [order = std::move(order)] {
+                      const auto done = export_file(order);
+                      return done ? std::string() : done.error().to_string();
+                    }});
   return true;
 }
 

@@ -2,6 +2,7 @@
 // The studio's tasks besides its document and its picture: frames, snapshots, thumbnails, point spreads.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr std::size_t kMostSnapshots = 9;
 }  // namespace
 
 void Studio::take_background_work() {
-  if (auto exported = export_job_.take()) say(std::move(*exported));
+  if (const auto exported = export_job_.take()) take_export(*exported);
   if (auto plate = plates_.take()) take_plate(std::move(*plate));
   if (auto detection = detection_job_.take()) take_detection(*detection);
   if (auto frames = frames_job_.take()) take_exported_frames(*frames);
@@ -48,6 +49,11 @@ void Studio::take_background_work() {
     ++point_spread_count_;
     ++changes_;
   }
+}
+
+void Studio::take_export(const ExportAnswer& answer) {
+  if (!answer.error.empty()) return take_problem(answer.error);
+  say(fmt::format("wrote {}", std::filesystem::absolute(answer.file).lexically_normal().string()));
 }
 
 void Studio::go_to_frame(int frame) {

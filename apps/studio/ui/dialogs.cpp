@@ -76,10 +76,18 @@ bool open_sweep(Ui& ui) {
   return true;
 }
 
+std::string session_name(const std::string& path) { return is_session(path) ? path : path + ".session.json"; }
+
 bool save_file(Ui& ui) {
-  if (!is_session(ui.state.path)) ui.state.path += ".session.json";
-  const bool saved = ui.studio.save_session(ui.state.path);
-  return saved;
+  ui.state.path = session_name(ui.state.path);
+  return ui.studio.save_session(ui.state.path);
+}
+
+// The session's own file is replaced without asking.
+bool replaces_session(const Ui& ui) {
+  std::error_code code;
+  const std::string file = session_name(ui.state.path);
+  return file != ui.studio.file() && std::filesystem::exists(file, code);
 }
 
 void draw_recovery(Ui& ui) {
@@ -140,7 +148,8 @@ void draw_content(Ui& ui) {
     case Dialog::OpenLens: return draw_file_dialog(ui, "Open", [&] { return open_file(ui); });
     case Dialog::OpenPlate: return draw_plate_choice(ui);
     case Dialog::OpenSweep: return draw_file_dialog(ui, "Open", [&] { return open_sweep(ui); });
-    case Dialog::SaveAs: return draw_file_dialog(ui, "Save", [&] { return save_file(ui); });
+    case Dialog::SaveAs:
+      return draw_file_dialog(ui, "Save", [&] { return save_file(ui); }, [&] { return replaces_session(ui); });
     case Dialog::Export: return draw_export_dialog(ui);
     case Dialog::Recover: return draw_recovery(ui);
     case Dialog::Quit: return draw_quit(ui);
@@ -162,7 +171,8 @@ const char* title_of(Dialog dialog) {
 
 }  // namespace
 
-void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act) {
+void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act,
+                      const std::function<bool()>& replaces) {
   ImGui::SetNextItemWidth(scaled(560));
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##path", &ui.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -173,10 +183,19 @@ void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& a
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kBad), "%s", ui.studio.problem().c_str());
     ImGui::PopTextWrapPos();
   }
-  const bool acts = button(ui, "dialog/accept", action, nullptr, {scaled(110), 0}) || entered;
+  if (ui.state.asked_path != ui.state.path) ui.state.asked_path.clear();
+  const bool was_asked = !ui.state.asked_path.empty();
+  if (was_asked) ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kAccent), "This file exists. Replace it?");
+  const bool acts = button(ui, "dialog/accept", was_asked ? "Replace" : action, nullptr, {scaled(110), 0}) || entered;
   ImGui::SameLine();
   if (button(ui, "dialog/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
-  if (acts && !ui.state.path.empty() && act()) ImGui::CloseCurrentPopup();
+  if (!acts || ui.state.path.empty()) return;
+  if (!was_asked && replaces && replaces()) {
+    ui.state.asked_path = ui.state.path;
+    return;
+  }
+  ui.state.asked_path.clear();
+  if (act()) ImGui::CloseCurrentPopup();
 }
 
 void draw_dialogs(Ui& ui) {

@@ -82,9 +82,13 @@ void draw_export_dialog(Ui& ui) {
   if (ui.state.export_kind == ExportKind::Layers) draw_layers_choice(ui);
   draw_commands(ui);
   ImGui::Spacing();
-  draw_file_dialog(ui, "Export", [&] {
-    return ui.studio.export_as(ui.state.export_kind, ui.state.path, static_cast<LayersBy>(ui.state.export_layers));
-  });
+  const View& view = ui.studio.view;
+  draw_file_dialog(
+      ui, "Export",
+      [&] {
+        return ui.studio.export_as(ui.state.export_kind, ui.state.path, static_cast<LayersBy>(ui.state.export_layers));
+      },
+      [&] { return would_replace(ui.state.export_kind, ui.state.path, view.first_frame, view.last_frame); });
 }
 
 }  // namespace contrejour::studio

@@ -9,7 +9,9 @@
 namespace contrejour::studio {
 
 // The path, then a folder's files, then the button that does it; Enter does it, too. act: true closes the dialog.
-void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act);
+// replaces: whether it would replace a file, for which the dialog asks first.
+void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act,
+                      const std::function<bool()>& replaces = {});
 
 void draw_export_dialog(Ui& ui);
 

@@ -2,12 +2,12 @@
 // The ghosts of the selected light: sorted, alone or muted, selected.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
 
 #include "studio/core/ghost_edits.h"
+#include "studio/core/ghost_order.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
@@ -21,17 +21,13 @@ std::vector<std::size_t> rows_of(const Ui& ui) {
   const auto& figures = ui.studio.figures();
   std::vector<std::size_t> rows;
   const std::string& filter = ui.state.ghost_filter;
-  for (std::size_t k = 0; k < figures.size(); ++k) {
+  for (const std::size_t k : ghosts_in_order(figures, ui.state.ghost_order, ui.studio.frame_px())) {
     const std::string name = ghost_name(figures[k].ghost);
     const bool by_surface = !filter.empty() && filter.find('-') == std::string::npos &&
                             std::all_of(filter.begin(), filter.end(), [](char c) { return c >= '0' && c <= '9'; });
     const bool fits = by_surface ? figures[k].ghost.reflects_at(std::atoi(filter.c_str())) : name.starts_with(filter);
     if (fits) rows.push_back(k);
   }
-  if (ui.state.sorts_by_peak)
-    std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-      return figures[a].peak_irradiance > figures[b].peak_irradiance;
-    });
   return rows;
 }
 
@@ -56,11 +52,17 @@ void draw_ghost_controls(Ui& ui) {
   ImGui::InputTextWithHint("##filter", "3-8, or a surface", &ui.state.ghost_filter);
   ui.registry.record("ghosts/filter", ui.state.ghost_filter);
   ImGui::SameLine();
-  static constexpr const char* kOrders[] = {"by flux", "by peak"};
-  int order = ui.state.sorts_by_peak ? 1 : 0;
-  ImGui::SetNextItemWidth(scaled(92));
-  if (ImGui::Combo("##order", &order, kOrders, 2)) ui.state.sorts_by_peak = order == 1;
-  ui.registry.record("ghosts/order", kOrders[order]);
+  ImGui::SetNextItemWidth(scaled(112));
+  if (ImGui::BeginCombo("##order", name_of(ui.state.ghost_order))) {
+    for (const GhostOrder order : kGhostOrders) {
+      if (ImGui::Selectable(name_of(order), order == ui.state.ghost_order)) ui.state.ghost_order = order;
+      ui.registry.record(fmt::format("ghosts/order/{}", name_of(order)));
+    }
+    ImGui::EndCombo();
+  }
+  ui.registry.record("ghosts/order", name_of(ui.state.ghost_order));
+  tip("By visibility: mean brightness times diameter, inside the frame. By flux: all light of the ghost. By peak: its "
+      "brightest pixel.");
   ImGui::SameLine();
   if (button(ui, "ghosts/all", "Show all", "No ghost alone, none muted, all at their own gain (A)"))
     ui.studio.edit("show all ghosts", "", [](const Document& d) { return Result<Document>(with_all_ghosts(d)); });

@@ -6,6 +6,7 @@
 #include "contrejour/expert/parameter_text.h"
 #include "studio/core/coating_curves.h"
 #include "studio/core/prescription_table.h"
+#include "studio/core/surface_numbers.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
@@ -19,6 +20,15 @@ bool edit_lens(Ui& ui, const std::string& name, const LensEdit& edit) {
     auto lens = edit(*d.lens);
     if (!lens) return tl::unexpected(lens.error());
     return with_edited_lens(d, std::move(*lens));
+  });
+}
+
+// An edit after which surfaces have other numbers: a step of its own.
+void edit_surfaces(Ui& ui, const std::string& name, const SurfaceNumbers& numbers, const LensEdit& edit) {
+  ui.studio.edit(name, "", [&](const Document& d) -> Result<Document> {
+    auto lens = edit(*d.lens);
+    if (!lens) return tl::unexpected(lens.error());
+    return with_edited_lens(with_surface_numbers(d, numbers), std::move(*lens));
   });
 }
 
@@ -93,16 +103,19 @@ void draw_lens_row(Ui& ui, std::size_t row) {
 void draw_actions(Ui& ui) {
   const auto row = static_cast<std::size_t>(std::max(0, ui.studio.selection.surface - 1));
   const bool has_row = ui.studio.selection.surface > 0;
+  const std::size_t count = ui.studio.document().lens->surfaces.size();
   if (button(ui, "prescription/insert", "Insert", "A surface in the middle of the gap behind the selected one") &&
       has_row)
-    edit_lens(ui, "insert a surface", [&](const Prescription& p) { return with_inserted_surface(p, row); });
+    edit_surfaces(ui, "insert a surface", numbers_after_insertion(count, row),
+                  [&](const Prescription& p) { return with_inserted_surface(p, row); });
   ImGui::SameLine();
   if (button(ui, "prescription/delete", "Delete", "The selected surface") && has_row)
-    edit_lens(ui, fmt::format("delete surface {}", row + 1),
-              [&](const Prescription& p) { return without_surface(p, row); });
+    edit_surfaces(ui, fmt::format("delete surface {}", row + 1), numbers_after_deletion(count, row),
+                  [&](const Prescription& p) { return without_surface(p, row); });
   ImGui::SameLine();
   if (button(ui, "prescription/reverse", "Reverse", "Light passes the lens from the other end"))
-    edit_lens(ui, "reverse the lens", [](const Prescription& p) { return reversed_lens(p); });
+    edit_surfaces(ui, "reverse the lens", numbers_after_reversal(count),
+                  [](const Prescription& p) { return reversed_lens(p); });
   ImGui::SameLine();
   std::string factor;
   if (text_field(ui, "prescription/scale", factor, scaled(90), "scale by\u2026") && !factor.empty()) {

@@ -9,6 +9,7 @@
 
 #include <imgui.h>
 
+#include "studio/core/ghost_order.h"
 #include "studio/core/keys.h"
 #include "studio/core/section_edits.h"
 #include "studio/core/studio.h"
@@ -86,7 +87,8 @@ struct InterfaceState {
   Dialog dialog = Dialog::None;
   bool dialog_opens = false;
   std::string path, ghost_filter, parameter_filter;
-  bool sorts_by_peak = false;
+  std::string asked_path;  // the file that the user was asked about, since it exists
+  GhostOrder ghost_order = GhostOrder::Visibility;
   float side_width = 450, bottom_height = 272;  // at scale 1
   int coating_in_sight = 0, row_in_sight = 0;  // the surfaces that lists were scrolled to last
   TextEdit edit;
