@@ -136,7 +136,7 @@ class Exports(PanelTest):
     def test_layers_of_the_dialog_are_those_of_its_command(self):
         lines = [["key", "ctrl+e"], ["frames", 4], ["click", "export/kind/Layers"], ["frames", 4], ["state", "dialog.json"], ["click", "dialog/accept"], ["wait"]]
         state = self.state_after(lines, window="1280x720")
-        self.assertEqual(state["message"], "wrote layers.exr")
+        self.assertTrue(state["message"].startswith("wrote ") and state["message"].endswith("/layers.exr"))
         command = self.widget(self.state("dialog.json"), "export/command")["value"].split()
         self.command(*command[1:-1], "cli.exr")
         self.assertEqual(read_exr(self.folder / "cli.exr"), read_exr(self.folder / "layers.exr"))
@@ -144,7 +144,7 @@ class Exports(PanelTest):
     def test_the_report_is_one_page(self):
         lines = [["key", "ctrl+e"], ["frames", 4], ["click", "export/kind/Report"], ["frames", 4], ["click", "dialog/accept"], ["wait"]]
         state = self.state_after(lines, window="1280x720")
-        self.assertEqual(state["message"], "wrote report.html")
+        self.assertTrue(state["message"].startswith("wrote ") and state["message"].endswith("/report.html"))
         page = (self.folder / "report.html").read_text()
         self.assertEqual(page.count("<img "), 2)
         self.assertNotIn("http", page.replace("http://www.w3.org", ""))

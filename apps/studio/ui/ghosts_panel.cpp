@@ -48,7 +48,7 @@ void draw_summary(const Ui& ui) {
 }
 
 void draw_ghost_controls(Ui& ui) {
-  ImGui::SetNextItemWidth(scaled(150));
+  ImGui::SetNextItemWidth(scaled(128));
   ImGui::InputTextWithHint("##filter", "3-8, or a surface", &ui.state.ghost_filter);
   ui.registry.record("ghosts/filter", ui.state.ghost_filter);
   ImGui::SameLine();
