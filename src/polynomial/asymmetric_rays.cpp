@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "polynomial/least_squares.h"
+#include "polynomial/left_out_rays.h"
 #include "polynomial/zone_nodes.h"
 
 namespace contrejour::inline internal::polynomial {

@@ -67,6 +67,7 @@ class AsymmetricFit {
     }
     take_outputs();
     return std::ranges::all_of(outputs_, [](const AsymmetricOutput& o) { return o.p95 <= o.accepted; }) &&
+           !left_out_.brings_light_in(vector_at(zone_.sensor_mm)) &&
            !left_out_.admits_blocked_light(clearances(tested_), clearances(blocked_));
   }
 
@@ -86,10 +87,13 @@ class AsymmetricFit {
     const PolynomialOptions& options = problem_.options;
     const double pixel_mm = problem_.lens.pixel_mm, target_mm = options.target_px * pixel_mm;
     const double edge = kFractionOfEdge * options.edge;
-    outputs_.push_back(
-        {&rays_.for_light, kWavelengthStep, target_mm, options.position_px * pixel_mm, kNegligible * target_mm,
-         [](const RayTable& t, std::size_t k) { return Vec2{t.sensor_x_mm[k], t.sensor_y_mm[k]}; },
-         [this](const AsymmetricVector& v) { return left_out_.position_errors_mm(vector_at(v)); }, true});
+    // With equal weights both have the same systems.
+    const bool same = rays_.for_sensor.weight == rays_.for_light.weight;
+    outputs_.push_back({same ? &rays_.for_light : &rays_.for_sensor, kWavelengthStep, target_mm,
+                        options.position_px * pixel_mm, kNegligible * target_mm,
+                        [](const RayTable& t, std::size_t k) { return Vec2{t.sensor_x_mm[k], t.sensor_y_mm[k]}; },
+                        [this](const AsymmetricVector& v) { return left_out_.position_errors_mm(vector_at(v)); },
+                        true});
     crossings_ = rays_.nodes.front().middle().stop.size();
     for (std::size_t c = 0; c < crossings_; ++c)
       outputs_.push_back({&rays_.for_edges, kWavelengthStep, edge, options.edge, kNegligible * edge,

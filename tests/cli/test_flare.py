@@ -339,6 +339,11 @@ class PolynomialBench(ProgramTest):
         self.assertEqual(plots, ["convergence.svg", "times.svg", "zones.svg"])
 
     def test_whole_field_fits_of_a_lens(self):
+        # Pictures of `adaptive` in place of the reference's, which take half a minute.
+        (self.folder / "references").mkdir()
+        for name, stop in (("heliar-1-64x36-3nm-1", ["-f", 16]), ("heliar-1-64x36-3nm-1-full-aperture", [])):
+            self.run_program("render", "heliar", *stop, "--light-at", "0.70,0.33", "--ghosts", "one-side",
+                             "--wavelengths", 3, "--size", "64x36", "-o", f"references/{name}.exr")
         done = self.run_program("bench", "polynomial", "--tables", "lenses,lens-pictures", "--systems", "heliar",
                                 "--size", "64x36", "--cache", "references", "--json", "l.json")
         self.assertIn("Whole-field fits", done.stdout.decode())
@@ -354,7 +359,8 @@ class PolynomialBench(ProgramTest):
             self.assertLess(row["bytes"], 2e6)
         self.assertEqual(len(lenses["pictures"]), 2)
         for row in lenses["pictures"]:
-            self.assertGreater(row["polynomial_psnr_db"], max(50, row["adaptive_psnr_db"] - 3))
+            self.assertGreater(row["adaptive_psnr_db"] or 100, 60)  # null: equal
+            self.assertGreater(row["polynomial_psnr_db"], 50)
             self.assertLess(abs(row["polynomial_flux_ratio"] - 1), 0.005)
         self.assertEqual(len(list((self.folder / "references").iterdir())), 2)
 

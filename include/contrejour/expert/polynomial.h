@@ -60,9 +60,9 @@ struct ChebyshevVector {
 };
 
 struct PolynomialAccuracy {
-  double position_p50_px = 0.0, position_p95_px = 0.0, position_max_px = 0.0;
+  double position_p50_px = 0.0, position_p95_px = 0.0, position_max_px = 0.0;  // of light in or near the frame
   double edge_p95 = 0.0;  // radii, of the stop and of rims
-  double transmittance_p95 = 0.0;  // relative to the largest
+  double transmittance_p95 = 0.0;  // relative to the largest, of the same light
   int rays = 0;  // left out of the fit, and compared
 };
 
