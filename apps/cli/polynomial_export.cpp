@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* kExportExamples =
     "The code defines flare_ray(ghost, field, x_mm, y_mm, lambda_nm), self-contained with its tables; a comment says\n"
-    "what it takes, and which ghosts it has. Without --ghost these are the brightest fitted ones. The code of a "
-    "direct\n"
+    "what it takes, and which ghosts it has; with ghosts without axial symmetry, flare_ray_at(ghost, tangent_x,\n"
+    "tangent_y, ...), too. Without --ghost these are the brightest fitted ones. The code of a direct\n"
     "image (`polynomial fit --direct`) defines lens_ray(), from a point of the sensor and one of the stop to the ray "
     "in\n"
     "front of the lens, and lens_sensor(), from a point of the scene to the sensor.\n\n"
@@ -43,6 +43,8 @@ double fitted_flux(const GhostPolynomials& ghost) {
   for (const PolynomialZone& zone : ghost.zones)
     if (zone.state == PolynomialZone::State::Fitted)
       sum += zone.flux_mm2 * (zone.field_high * zone.field_high - zone.field_low * zone.field_low);
+  for (const AsymmetricZone& zone : ghost.asymmetric)
+    if (zone.state == PolynomialZone::State::Fitted) sum += zone.flux_mm2 * area_of(ghost, zone);
   return sum;
 }
 

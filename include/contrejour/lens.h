@@ -46,8 +46,8 @@ struct Surface {
   double curvature_per_mm = 0.0;  // 1 / radius, 0 for a plane, > 0 when the centre lies to +z
   double thickness_mm = 0.0;      // to the next vertex; unused on the last surface
   double semi_diameter_mm = 0.0;  // clear radius; for the stop, its widest opening
-  Glass glass_after;              // the medium behind; for the stop, the same as in front
-  Coating coating;
+  Glass glass_after = {};         // the medium behind; for the stop, the same as in front
+  Coating coating = {};
   int source_line = 0;            // in the file it was read from, 0 unknown
   SurfaceShape shape = {};
   SurfacePose pose = {};          // decentred and tilted elements; those around stay where they are
@@ -127,7 +127,7 @@ struct SensorStack {
 // A coating for one surface, in place of the one that the lens has there.
 struct SurfaceCoating {
   int surface = 0;  // 1-based; one that bounds glass, cemented or not
-  Coating coating;
+  Coating coating = {};
 };
 
 inline constexpr double kLargestFNumber = 1e5;
@@ -151,8 +151,8 @@ struct SurfaceState {
   double z_mm = 0.0;
   double curvature_per_mm = 0.0;
   double semi_diameter_mm = 0.0;
-  Glass before, after;
-  Coating coating;
+  Glass before = {}, after = {};
+  Coating coating = {};
   SurfacePose pose = {};
   SurfaceShape shape = {};
   ClearAperture aperture = {};

@@ -4,14 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "polynomial/least_squares.h"
+#include "polynomial/left_out_rays.h"
+#include "polynomial/zone_nodes.h"
 
 namespace contrejour::inline internal::polynomial {
 namespace {
 
 constexpr double kRoomAround = 1.02;  // of the pupil radii, around the bounds
 constexpr double kCentreRidge = 1e-4;
+constexpr int kBoundsSide = 7;
+constexpr int kRaysAtDirection = 40, kTriedAtDirection = 100;
+// Rays that are farther outside the light than this count little, so that few of those tried are kept.
+constexpr double kNearLight = 1.2;
+constexpr int kKeptOfFar = 4;  // every one of as many
 // Multiples of the powers of the inverse of the plastic number: Roberts' R2 sequence.
 constexpr double kStepFirst = 0.7548776662466927, kStepSecond = 0.5698402909980532;
 
@@ -59,6 +67,28 @@ std::array<double, 10> centre_of(const AsymmetricZone& zone, const Parities& par
   return centre;
 }
 
+// Rays in and around the light, as one wavelength shows it. `area_mm2` of those near it is that of the whole sample.
+std::vector<RayStart> starts_near_light(const AsymmetricProblem& problem, const AsymmetricZone& zone, int fields) {
+  const std::vector<RayStart> tried = starts_within(zone, {fields, kTriedAtDirection, 1, 1});
+  const RayTable table = problem.rays.trace(tried, wavelength_at(problem.lens, 0.0));
+  std::vector<RayStart> kept;
+  int near = 0, far = 0;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    const bool first = k == 0 || tried[k].field != tried[k - 1].field || tried[k].field_y != tried[k - 1].field_y;
+    if (first) near = 0;
+    const bool is_near = table.clearance(k) < kNearLight;
+    if (is_near ? near++ < kRaysAtDirection : far++ % kKeptOfFar == 0) kept.push_back(tried[k]);
+  }
+  return kept;
+}
+
+AsymmetricBounds mirrored_bounds(const AsymmetricBounds& b, bool in_x, bool in_y) {
+  AsymmetricBounds out = b;
+  if (in_x) out.low_x_mm = -b.high_x_mm, out.high_x_mm = -b.low_x_mm;
+  if (in_y) out.low_y_mm = -b.high_y_mm, out.high_y_mm = -b.low_y_mm;
+  return out;
+}
+
 }  // namespace
 
 void set_pupil_coordinates(AsymmetricZone& zone) {
@@ -96,6 +126,42 @@ std::vector<RayStart> starts_within(const AsymmetricZone& zone, const Asymmetric
     }
   }
   return starts;
+}
+
+FitRays fit_rays(const AsymmetricProblem& problem, const AsymmetricZone& zone, int fields) {
+  FitRays rays;
+  NodeRays& node = rays.nodes.emplace_back();
+  node.starts = starts_near_light(problem, zone, fields);
+  for (int k = 0; k < kWavelengths; ++k)
+    node.tables.push_back(
+        problem.rays.trace(node.starts, wavelength_at(problem.lens, node_coordinate(k, kWavelengths))));
+  weigh_rays(rays, kNearSensor * length(problem.sensor_half_mm));
+  return rays;
+}
+
+AsymmetricZone with_bounds(const AsymmetricProblem& problem, const AsymmetricZone& place) {
+  AsymmetricZone zone = place;
+  zone.bounds_side = kBoundsSide;
+  zone.bounds.assign(std::size_t{kBoundsSide} * kBoundsSide, {});
+  const int cells = kBoundsSide - 1;
+  std::optional<Rectangle> near;
+  for (int iy = zone.even_y ? cells / 2 : 0; iy <= cells; ++iy) {
+    for (int ix = zone.even_x ? cells / 2 : 0; ix <= cells; ++ix) {
+      const Vec2 tangents = tangents_at(zone, {2.0 * ix / cells - 1.0, 2.0 * iy / cells - 1.0});
+      const AsymmetricBounds b = problem.rays.bounds(tangents, near, false);
+      if (lets_light_in(b)) {
+        const Vec2 low{b.low_x_mm, b.low_y_mm}, high{b.high_x_mm, b.high_y_mm}, more = (high - low) * 0.4;
+        near = Rectangle{low - more, high + more};
+      }
+      for (const bool in_x : {false, true})
+        for (const bool in_y : {false, true}) {
+          if ((in_x && !zone.even_x) || (in_y && !zone.even_y)) continue;
+          const int at_x = in_x ? cells - ix : ix, at_y = in_y ? cells - iy : iy;
+          zone.bounds[static_cast<std::size_t>(at_y * kBoundsSide + at_x)] = mirrored_bounds(b, in_x, in_y);
+        }
+    }
+  }
+  return zone;
 }
 
 double flux_mm2(const AsymmetricZone& zone, const NodeRays& rays, int fields) {

@@ -9,6 +9,16 @@
 
 namespace contrejour::inline internal::polynomial {
 
+struct AsymmetricProblem {
+  const LensPolynomials& lens;  // without ghosts
+  const PolynomialOptions& options;
+  const GhostRays& rays;
+  Vec2 sensor_half_mm;
+};
+
+// The zone with bounds of light at all directions of its grid.
+[[nodiscard]] AsymmetricZone with_bounds(const AsymmetricProblem& problem, const AsymmetricZone& place);
+
 // Chooses centres that follow the middle of the light's bounds, and radii, from the zone's bounds, of which one at
 // least must have light.
 void set_pupil_coordinates(AsymmetricZone& zone);
@@ -21,6 +31,9 @@ struct AsymmetricSampling {
   std::size_t field_index = 1, first = 1;
 };
 [[nodiscard]] std::vector<RayStart> starts_within(const AsymmetricZone& zone, const AsymmetricSampling& sampling);
+
+// The rays that a zone is fitted to, in and around its light, from that many directions.
+[[nodiscard]] FitRays fit_rays(const AsymmetricProblem& problem, const AsymmetricZone& zone, int fields);
 
 // The mean over the zone's area of the ghost's flux. rays: of starts_within() with this number of directions.
 [[nodiscard]] double flux_mm2(const AsymmetricZone& zone, const NodeRays& rays, int fields);

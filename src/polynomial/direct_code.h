@@ -6,8 +6,7 @@
 
 namespace contrejour::inline internal::polynomial {
 
-// @ stands for the prefix of all names. One text for C, GLSL and HLSL, in which REAL, OUT and IN stand for a number and
-// for arrays as results and as arguments, LOCAL for `static`, BOOL, YES and NO for truth values.
+// As kCommonCode of export_code.h.
 inline constexpr std::string_view kDirectCode = R"code(
 LOCALvoid @chebyshev(REAL x, OUTREAL t[13], OUTREAL d[13]) {
   t[0] = 1.0; t[1] = x;

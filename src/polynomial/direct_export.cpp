@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "contrejour/expert/direct_polynomials.h"
@@ -28,23 +25,6 @@ std::string direct_header(const DirectPolynomials& lens, PolynomialLanguage lang
   return text;
 }
 
-// The words of kDirectCode in a language.
-void translate(std::string& code, PolynomialLanguage language) {
-  const bool is_c = language == PolynomialLanguage::C;
-  const std::array<std::pair<std::string_view, std::string_view>, 10> words{
-      {{"OUTREAL", is_c ? "double" : "out float"},
-       {"INREAL", is_c ? "const double" : "float"},
-       {"REAL", is_c ? "double" : "float"},
-       {"LOCAL", is_c ? "static " : ""},
-       {"BOOL", is_c ? "int" : "bool"},
-       {"YES", is_c ? "1" : "true"},
-       {"NO;", is_c ? "0;" : "false;"},
-       {"@COEFFICIENT(c)", is_c ? "@coefficients[c]" : "@COEFFICIENT(c)"},
-       {"ABS", is_c ? "fabs" : "abs"},
-       {"@CONVERGED", is_c ? "1e-9" : "1e-5 * @HEIGHT"}}};
-  for (const auto& [from, to] : words) replace_all(code, from, to);
-}
-
 // A number as a literal of any of the languages.
 std::string literal(double value) {
   std::string text = fmt::format("{}", value);
@@ -69,9 +49,9 @@ Result<std::string> export_direct_polynomials(const DirectPolynomials& polynomia
   tables.add(polynomials.transmittance);
   for (const PolynomialRim& rim : polynomials.rims) tables.add(rim.squared);
   const bool is_python = language == PolynomialLanguage::Python;
-  std::string code(is_python ? kDirectCodeInPython : kDirectCode);
-  if (!is_python) translate(code, language);
-  replace_all(code, "@CONVERGED", "1e-9");
+  std::string code = is_python ? std::string(kDirectCodeInPython) : translated(std::string(kDirectCode), language);
+  const bool in_double = is_python || language == PolynomialLanguage::C;
+  replace_all(code, "@CONVERGED", in_double ? "1e-9" : "1e-5 * @HEIGHT");
   replace_all(code, "@HEIGHT", literal(polynomials.max_height_mm));
   replace_all(code, "@MARGIN", literal(DirectPolynomials::kMargin));
   replace_all(code, "@FRONT", literal(polynomials.front_z_mm));

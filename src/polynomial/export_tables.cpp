@@ -2,8 +2,10 @@
 #include "polynomial/export_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,6 +60,22 @@ std::string coefficients_text(PolynomialLanguage language, const std::vector<dou
   return "#ifndef @COEFFICIENT\n" + table + "#define @COEFFICIENT(i) @coefficients[i]\n#endif\n";
 }
 
+std::string translated(std::string code, PolynomialLanguage language) {
+  const bool is_c = language == PolynomialLanguage::C;
+  const std::array<std::pair<std::string_view, std::string_view>, 9> words{
+      {{"OUTREAL", is_c ? "double" : "out float"},
+       {"INREAL", is_c ? "const double" : "float"},
+       {"REAL", is_c ? "double" : "float"},
+       {"BOOL", is_c ? "int" : "bool"},
+       {"LOCAL", is_c ? "static " : ""},
+       {"YES", is_c ? "1" : "true"},
+       {"NO;", is_c ? "0;" : "false;"},
+       {"@COEFFICIENT(c)", is_c ? "@coefficients[c]" : "@COEFFICIENT(c)"},
+       {"ABS", is_c ? "fabs" : "abs"}}};
+  for (const auto& [from, to] : words) replace_all(code, from, to);
+  return code;
+}
+
 void SumTables::add(const ChebyshevSum& sum) {
   for (const int value : {sum.degree, sum.wavelength_terms, static_cast<int>(coefficients.size())})
     sums.push_back(value);
@@ -66,6 +84,10 @@ void SumTables::add(const ChebyshevSum& sum) {
 void SumTables::add(const ChebyshevVector& vector) {
   add(vector.along_field);
   add(vector.along_pupil);
+}
+void SumTables::add(const AsymmetricVector& vector) {
+  add(vector.x);
+  add(vector.y);
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

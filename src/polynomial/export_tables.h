@@ -19,6 +19,9 @@ namespace contrejour::inline internal::polynomial {
 // The coefficients' table, in shaders unless the program defines @COEFFICIENT(i) to read it from elsewhere.
 [[nodiscard]] std::string coefficients_text(PolynomialLanguage language, const std::vector<double>& values);
 
+// Code for C, GLSL and HLSL with its words of export_code.h, REAL and the others, in a language.
+[[nodiscard]] std::string translated(std::string code, PolynomialLanguage language);
+
 // The polynomials' tables. `sums` holds the degree, the wavelength terms and the first coefficient of each.
 struct SumTables {
   std::vector<int> sums;
@@ -26,6 +29,7 @@ struct SumTables {
 
   void add(const ChebyshevSum& sum);
   void add(const ChebyshevVector& vector);
+  void add(const AsymmetricVector& vector);
 };
 
 void replace_all(std::string& text, std::string_view from, std::string_view to);

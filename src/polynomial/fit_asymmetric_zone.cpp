@@ -20,16 +20,11 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr int kBoundsSide = 7;
 constexpr int kFirstDegree = 5, kDegreeStep = 2;
-// Directions of a fit, by the number of axes in which the zone is even, the rays of each near its light, and those that
-// are tried. At order 9, 55 products of polynomials in the directions alone must be determined.
+// Directions of a fit, by the number of axes in which the zone is even. At order 9, 55 products of polynomials in the
+// directions alone must be determined.
 constexpr std::array kFitFields{110, 80, 64};
-constexpr int kRaysAtDirection = 40, kTriedAtDirection = 100;
 constexpr int kMostTerms = 730;  // order 13, 11 or 9 for two, one or no mirror planes; beyond, a system takes seconds
-// Rays that are farther outside the light than this count little, so that few of those tried are kept.
-constexpr double kNearLight = 1.2;
-constexpr int kKeptOfFar = 4;  // every one of as many
 constexpr int kTestedDirections = 24, kTestedAtDirection = 32, kBlockedAtDirection = 96, kRimRaysAtDirection = 64;
 constexpr std::size_t kFirstTestedField = 50'021;  // in the sequence of directions
 
@@ -72,6 +67,7 @@ class AsymmetricFit {
     }
     take_outputs();
     return std::ranges::all_of(outputs_, [](const AsymmetricOutput& o) { return o.p95 <= o.accepted; }) &&
+           !left_out_.brings_light_in(vector_at(zone_.sensor_mm)) &&
            !left_out_.admits_blocked_light(clearances(tested_), clearances(blocked_));
   }
 
@@ -91,10 +87,13 @@ class AsymmetricFit {
     const PolynomialOptions& options = problem_.options;
     const double pixel_mm = problem_.lens.pixel_mm, target_mm = options.target_px * pixel_mm;
     const double edge = kFractionOfEdge * options.edge;
-    outputs_.push_back(
-        {&rays_.for_light, kWavelengthStep, target_mm, options.position_px * pixel_mm, kNegligible * target_mm,
-         [](const RayTable& t, std::size_t k) { return Vec2{t.sensor_x_mm[k], t.sensor_y_mm[k]}; },
-         [this](const AsymmetricVector& v) { return left_out_.position_errors_mm(vector_at(v)); }, true});
+    // With equal weights both have the same systems.
+    const bool same = rays_.for_sensor.weight == rays_.for_light.weight;
+    outputs_.push_back({same ? &rays_.for_light : &rays_.for_sensor, kWavelengthStep, target_mm,
+                        options.position_px * pixel_mm, kNegligible * target_mm,
+                        [](const RayTable& t, std::size_t k) { return Vec2{t.sensor_x_mm[k], t.sensor_y_mm[k]}; },
+                        [this](const AsymmetricVector& v) { return left_out_.position_errors_mm(vector_at(v)); },
+                        true});
     crossings_ = rays_.nodes.front().middle().stop.size();
     for (std::size_t c = 0; c < crossings_; ++c)
       outputs_.push_back({&rays_.for_edges, kWavelengthStep, edge, options.edge, kNegligible * edge,
@@ -218,72 +217,14 @@ class AsymmetricFit {
   std::vector<AsymmetricOutput> outputs_;
 };
 
-// Rays in and around the light, as one wavelength shows it. `area_mm2` of those near it is that of the whole sample.
-std::vector<RayStart> starts_near_light(const AsymmetricProblem& problem, const AsymmetricZone& zone, int fields) {
-  const std::vector<RayStart> tried = starts_within(zone, {fields, kTriedAtDirection, 1, 1});
-  const RayTable table = problem.rays.trace(tried, wavelength_at(problem.lens, 0.0));
-  std::vector<RayStart> kept;
-  int near = 0, far = 0;
-  for (std::size_t k = 0; k < tried.size(); ++k) {
-    const bool first = k == 0 || tried[k].field != tried[k - 1].field || tried[k].field_y != tried[k - 1].field_y;
-    if (first) near = 0;
-    const bool is_near = table.clearance(k) < kNearLight;
-    if (is_near ? near++ < kRaysAtDirection : far++ % kKeptOfFar == 0) kept.push_back(tried[k]);
-  }
-  return kept;
-}
-
-FitRays rays_of(const AsymmetricProblem& problem, const AsymmetricZone& zone, int fields) {
-  FitRays rays;
-  NodeRays& node = rays.nodes.emplace_back();
-  node.starts = starts_near_light(problem, zone, fields);
-  for (int k = 0; k < kWavelengths; ++k)
-    node.tables.push_back(
-        problem.rays.trace(node.starts, wavelength_at(problem.lens, node_coordinate(k, kWavelengths))));
-  weigh_rays(rays, kNearSensor * length(problem.sensor_half_mm));
-  return rays;
-}
-
-AsymmetricBounds mirrored_bounds(const AsymmetricBounds& b, bool in_x, bool in_y) {
-  AsymmetricBounds out = b;
-  if (in_x) out.low_x_mm = -b.high_x_mm, out.high_x_mm = -b.low_x_mm;
-  if (in_y) out.low_y_mm = -b.high_y_mm, out.high_y_mm = -b.low_y_mm;
-  return out;
-}
-
 }  // namespace
-
-AsymmetricZone with_bounds(const AsymmetricProblem& problem, const AsymmetricZone& place) {
-  AsymmetricZone zone = place;
-  zone.bounds_side = kBoundsSide;
-  zone.bounds.assign(std::size_t{kBoundsSide} * kBoundsSide, {});
-  const int cells = kBoundsSide - 1;
-  std::optional<Rectangle> near;
-  for (int iy = zone.even_y ? cells / 2 : 0; iy <= cells; ++iy) {
-    for (int ix = zone.even_x ? cells / 2 : 0; ix <= cells; ++ix) {
-      const Vec2 tangents = tangents_at(zone, {2.0 * ix / cells - 1.0, 2.0 * iy / cells - 1.0});
-      const AsymmetricBounds b = problem.rays.bounds(tangents, near, false);
-      if (lets_light_in(b)) {
-        const Vec2 low{b.low_x_mm, b.low_y_mm}, high{b.high_x_mm, b.high_y_mm}, more = (high - low) * 0.4;
-        near = Rectangle{low - more, high + more};
-      }
-      for (const bool in_x : {false, true})
-        for (const bool in_y : {false, true}) {
-          if ((in_x && !zone.even_x) || (in_y && !zone.even_y)) continue;
-          const int at_x = in_x ? cells - ix : ix, at_y = in_y ? cells - iy : iy;
-          zone.bounds[static_cast<std::size_t>(at_y * kBoundsSide + at_x)] = mirrored_bounds(b, in_x, in_y);
-        }
-    }
-  }
-  return zone;
-}
 
 AsymmetricZone fit_asymmetric_zone(const AsymmetricProblem& problem, const AsymmetricZone& place) {
   AsymmetricZone zone = with_bounds(problem, place);
   if (std::ranges::none_of(zone.bounds, [](const AsymmetricBounds& b) { return lets_light_in(b); })) return zone;
   set_pupil_coordinates(zone);
   const int fields = kFitFields[static_cast<std::size_t>(even_axes(zone))];
-  const FitRays rays = rays_of(problem, zone, fields);
+  const FitRays rays = fit_rays(problem, zone, fields);
   zone.flux_mm2 = flux_mm2(zone, rays.nodes.front(), fields);
   AsymmetricFit fit(problem, zone, rays);
   const bool fitted = fit.run();

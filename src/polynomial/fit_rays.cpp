@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "polynomial/left_out_rays.h"
 #include "polynomial/zone_nodes.h"
 
 namespace contrejour::inline internal::polynomial {
@@ -17,6 +18,11 @@ constexpr int kRaysAtField = 96;
 // for light that gets through; the edges that block light must also block all light beyond.
 constexpr double kFarthestLight = 1.2, kFarthestEdge = 2.0;
 constexpr double kFallLight = 48.0, kFallEdge = 48.0;
+// How steeply rays count less the farther from the sensor they land. Those far out are rays of steep directions, where
+// positions vary most, and matter for no picture: where they count in proportion to the inverse of the distance, they
+// have most of the squared error. Transmittances vary less, and remain near their values there.
+constexpr double kFallLanding = 12.0, kFallLandingOfLight = 6.0;
+constexpr std::size_t kFewLanding = 40;  // rays of a fit near the sensor, below which all of its rays are tested
 constexpr double kFallElsewhere = 6.0;  // of rays that get through at one node of a range, and far from it at another
 // Squared relative heights next to an edge, wide enough that the few rays there show which rim is the outermost, and by
 // how much a rim must exceed the others.
@@ -27,6 +33,8 @@ constexpr double kOpenLimit = 1.12, kBlockingRim = 0.88, kOutermostBy = 0.004;
 // A ray counts as at the node at which most of it gets through: between the nodes, light may be wherever it is at one
 // of them. A ray that fails at any node is left out.
 void weigh_rays(FitRays& rays, double near_mm) {
+  std::vector<double> by_landing;  // of the rays for the sensor
+  std::size_t landing = 0;
   for (std::size_t ray = 0; ray < rays.nodes.front().starts.size(); ++ray) {
     double clearance = kFailed, largest = 0.0, landing_mm = kFailed;
     for (const NodeRays& node : rays.nodes) {
@@ -37,12 +45,21 @@ void weigh_rays(FitRays& rays, double near_mm) {
           std::min<double>(landing_mm, std::hypot(node.middle().sensor_x_mm[ray], node.middle().sensor_y_mm[ray]));
     }
     if (!(largest < kFailed)) continue;
-    const double by_landing = std::min(1.0, near_mm / std::max(landing_mm, near_mm));
     // For a single node the two clearances are equal.
     const double elsewhere = rays.nodes.size() > 1 ? std::pow(std::max(largest, 1.0), -kFallElsewhere) : 1.0;
     const auto falling = [&](double power) { return elsewhere * std::pow(std::max(clearance, 1.0), -power); };
-    if (clearance < kFarthestLight) rays.for_light.add(ray, by_landing * falling(kFallLight));
+    if (clearance < kFarthestLight) {
+      by_landing.push_back(std::min(1.0, near_mm / std::max(landing_mm, near_mm)));
+      rays.for_sensor.add(ray, falling(kFallLight));
+      rays.for_light.add(ray, falling(kFallLight));
+      if (clearance <= 1.0 && landing_mm <= near_mm) ++landing;
+    }
     if (clearance < kFarthestEdge) rays.for_edges.add(ray, falling(kFallEdge));
+  }
+  const bool few = landing < kFewLanding;
+  for (std::size_t k = 0; k < by_landing.size(); ++k) {
+    rays.for_sensor.weight[k] *= std::pow(by_landing[k], few ? 1.0 : kFallLanding);
+    rays.for_light.weight[k] *= std::pow(by_landing[k], few ? 1.0 : kFallLandingOfLight);
   }
 }
 

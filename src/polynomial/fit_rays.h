@@ -41,15 +41,14 @@ struct NodeRays {
 struct FitRays {
   std::vector<NodeRays> nodes;
   std::vector<ZonePoint> points;
-  WeightedRays for_light, for_edges;
+  WeightedRays for_sensor, for_light, for_edges;  // positions on the sensor; transmittances; the stop and rims
 };
 
 // zones: with their bounds and pupil coordinates, one a node.
 [[nodiscard]] FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zones);
 
-// Sets for_light and for_edges from the nodes. near_mm: rays that land farther from the sensor's middle count less.
+// Sets the weights of all rays from the nodes. near_mm: rays that land farther from the sensor's middle count less.
 void weigh_rays(FitRays& rays, double near_mm);
-inline constexpr double kNearSensor = 1.6;  // near_mm, in half diagonals of the sensor
 
 // Adds the steps whose rims block light that nothing else blocks: the one that blocks most comes first. table: at the
 // middle wavelength.

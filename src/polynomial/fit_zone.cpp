@@ -67,6 +67,12 @@ class Checks {
     return false;
   }
 
+  [[nodiscard]] bool bring_light_in(const NodeVectors& sensor) const {
+    for (std::size_t t = 0; t < checks_.size(); ++t)
+      if (checks_[t].brings_light_in(interpolated(sensor, problem_.tests[t].weights))) return true;
+    return false;
+  }
+
   [[nodiscard]] int rays() const {
     int sum = 0;
     for (const ZoneCheck& check : checks_) sum += check.rays();
@@ -84,7 +90,7 @@ class ZoneFit {
  public:
   ZoneFit(const ZoneProblem& problem, const FitRays& rays, const Checks& checks, std::vector<PolynomialZone>& zones)
       : problem_(problem), options_(problem.options), rays_(rays), checks_(checks), zones_(zones),
-        light_(rays, rays.for_light), edges_(rays, rays.for_edges) {}
+        sensor_(rays, rays.for_sensor), light_(rays, rays.for_light), edges_(rays, rays.for_edges) {}
 
   // Returns whether all outputs are accurate enough.
   bool run() {
@@ -104,21 +110,22 @@ class ZoneFit {
     const auto errors = [](const ZoneCheck& check, const ChebyshevVector& v) { return check.position_errors_mm(v); };
     NodeVectors sensor(zones_.size());
     raise_degree(
-        light_, max_degree_, {target_mm, options_.position_px * pixel_mm}, sensor,
+        sensor_, max_degree_, {target_mm, options_.position_px * pixel_mm}, sensor,
         [&](int degree) {
           return fitted_vectors(
-              light_, degree, [](const RayTable& t, std::size_t k) { return t.sensor_x_mm[k]; },
+              sensor_, degree, [](const RayTable& t, std::size_t k) { return t.sensor_x_mm[k]; },
               [](const RayTable& t, std::size_t k) { return t.sensor_y_mm[k]; }, kNegligible * target_mm);
         },
         [&](const NodeVectors& tried) { return checks_.worst(tried, 0.95, errors); });
     accuracy_.position_p50_px = checks_.worst(sensor, 0.5, errors) / pixel_mm;
     accuracy_.position_p95_px = checks_.worst(sensor, 0.95, errors) / pixel_mm;
     accuracy_.position_max_px = checks_.worst(sensor, 1.0, errors) / pixel_mm;
+    const bool brings_light_in = checks_.bring_light_in(sensor);
     for (std::size_t n = 0; n < zones_.size(); ++n) {
       zones_[n].order = 2 * sensor[n].along_field.degree + 1;
       zones_[n].sensor_mm = std::move(sensor[n]);
     }
-    return accuracy_.position_p95_px <= options_.position_px;
+    return accuracy_.position_p95_px <= options_.position_px && !brings_light_in;
   }
 
   void fit_stop(std::size_t crossing) {
@@ -192,7 +199,7 @@ class ZoneFit {
   const FitRays& rays_;
   const Checks& checks_;
   std::vector<PolynomialZone>& zones_;
-  Systems light_, edges_;
+  Systems sensor_, light_, edges_;
   int max_degree_ = (options_.max_order - 1) / 2;
   double edge_target_ = kFractionOfEdge * options_.edge;
   PolynomialAccuracy accuracy_;

@@ -11,7 +11,6 @@
 namespace contrejour::inline internal::polynomial {
 namespace {
 
-constexpr double kLandingNear = 1.1;  // of its size
 constexpr std::size_t kFewRays = 16;
 // A ray that passes an edge outside by this fraction of its radius must not be let through.
 constexpr double kBlockedBy = 0.01;
@@ -31,7 +30,8 @@ double quantile(const std::vector<double>& rising, double fraction) {
 
 LeftOutRays::LeftOutRays(const LensPolynomials& lens, const GhostRays& rays, std::vector<RayStart> starts,
                          std::vector<RayStart> blocked_starts, Vec2 sensor_half_mm)
-    : starts_(std::move(starts)), blocked_starts_(std::move(blocked_starts)) {
+    : starts_(std::move(starts)), blocked_starts_(std::move(blocked_starts)),
+      half_diagonal_mm_(length(sensor_half_mm)) {
   for (const double coordinate : kTestedWavelengths) {
     tables_.push_back(rays.trace(starts_, wavelength_at(lens, coordinate)));
     const RayTable& table = tables_.back();
@@ -41,8 +41,8 @@ LeftOutRays::LeftOutRays(const LensPolynomials& lens, const GhostRays& rays, std
       largest = std::max(largest, static_cast<double>(table.transmission[k]));
       const LeftOutRay sample{tables_.size() - 1, k};
       open_.push_back(sample);
-      if (std::abs(table.sensor_x_mm[k]) < kLandingNear * length(sensor_half_mm) &&
-          std::abs(table.sensor_y_mm[k]) < kLandingNear * length(sensor_half_mm))
+      if (std::abs(table.sensor_x_mm[k]) < kLandingNear * half_diagonal_mm_ &&
+          std::abs(table.sensor_y_mm[k]) < kLandingNear * half_diagonal_mm_)
         landing_.push_back(sample);
     }
     largest_transmittance_.push_back(largest);
@@ -81,10 +81,18 @@ std::vector<double> LeftOutRays::rim_errors(const ScalarAt& squared, int step) c
 
 std::vector<double> LeftOutRays::transmittance_errors(const ScalarAt& transmittance) const {
   std::vector<double> errors;
-  for (const LeftOutRay& sample : open_)
+  for (const LeftOutRay& sample : landing_)
     errors.push_back(std::abs(transmittance(sample) - tables_[sample.wavelength].transmission[sample.ray]) /
                      std::max(largest_transmittance_[sample.wavelength], 1e-30));
   return sorted(std::move(errors));
+}
+
+bool LeftOutRays::brings_light_in(const VectorAt& sensor) const {
+  return std::ranges::any_of(open_, [&](const LeftOutRay& sample) {
+    const RayTable& table = tables_[sample.wavelength];
+    const double landing_mm = std::hypot(table.sensor_x_mm[sample.ray], table.sensor_y_mm[sample.ray]);
+    return landing_mm > kNearSensor * half_diagonal_mm_ && !(length(sensor(sample)) > kOnSensor * half_diagonal_mm_);
+  });
 }
 
 bool LeftOutRays::admits_blocked_light(const ClearanceAt& of_rays, const ClearanceAt& of_blocked) const {

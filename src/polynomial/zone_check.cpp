@@ -53,6 +53,10 @@ std::vector<double> ZoneCheck::transmittance_errors(const ChebyshevSum& transmit
   return rays_.transmittance_errors([&](const LeftOutRay& sample) { return value(transmittance, sample); });
 }
 
+bool ZoneCheck::brings_light_in(const ChebyshevVector& sensor) const {
+  return rays_.brings_light_in([&](const LeftOutRay& sample) { return value(sensor, sample); });
+}
+
 bool ZoneCheck::admits_blocked_light(const LensPolynomials& lens, const PolynomialZone& zone) const {
   const auto clearance_from = [&](const std::vector<RayStart>& starts) {
     return [&](const LeftOutRay& sample) {

@@ -23,6 +23,8 @@ class ZoneCheck {
 
   // True if the zone's polynomials let a ray through that is blocked or fails, with a margin.
   [[nodiscard]] bool admits_blocked_light(const LensPolynomials& lens, const PolynomialZone& zone) const;
+  // True if a polynomial places light on the sensor that lands far from it.
+  [[nodiscard]] bool brings_light_in(const ChebyshevVector& sensor) const;
   [[nodiscard]] int rays() const { return rays_.open_rays(); }
 
  private:

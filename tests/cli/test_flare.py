@@ -338,8 +338,35 @@ class PolynomialBench(ProgramTest):
         plots = sorted(p.name for p in (self.folder / "plots").iterdir())
         self.assertEqual(plots, ["convergence.svg", "times.svg", "zones.svg"])
 
+    def test_whole_field_fits_of_a_lens(self):
+        # Pictures of `adaptive` in place of the reference's, which take half a minute.
+        (self.folder / "references").mkdir()
+        for name, stop in (("heliar-1-64x36-3nm-1", ["-f", 16]), ("heliar-1-64x36-3nm-1-full-aperture", [])):
+            self.run_program("render", "heliar", *stop, "--light-at", "0.70,0.33", "--ghosts", "one-side",
+                             "--wavelengths", 3, "--size", "64x36", "-o", f"references/{name}.exr")
+        done = self.run_program("bench", "polynomial", "--tables", "lenses,lens-pictures", "--systems", "heliar",
+                                "--size", "64x36", "--cache", "references", "--json", "l.json")
+        self.assertIn("Whole-field fits", done.stdout.decode())
+        lenses = json.loads((self.folder / "l.json").read_text())["lenses"]
+        self.assertEqual([row["f_number"] for row in lenses["fits"]], [16, 3.5])
+        for row in lenses["fits"]:
+            self.assertEqual(row["ghosts"], 13)
+            self.assertGreater(row["rays"], 2000)
+            self.assertLess(row["median_position_p95_px"], 0.02)
+            self.assertLess(row["weighted_position_p95_px"], 0.25)
+            self.assertLess(row["weighted_transmittance_p95"], 2e-3)
+            self.assertLess(row["traced_flux_fraction"], 0.15)
+            self.assertLess(row["bytes"], 2e6)
+        self.assertEqual(len(lenses["pictures"]), 2)
+        for row in lenses["pictures"]:
+            self.assertGreater(row["adaptive_psnr_db"] or 100, 60)  # null: equal
+            self.assertGreater(row["polynomial_psnr_db"], 50)
+            self.assertLess(abs(row["polynomial_flux_ratio"] - 1), 0.005)
+        self.assertEqual(len(list((self.folder / "references").iterdir())), 2)
+
     def test_wrong_tables(self):
         self.error_of("bench", "polynomial", "--tables", "9", code=2)
+        self.error_of("bench", "polynomial", "--tables", "lenses", "--systems", "leica", code=2)
         self.error_of("bench", "polynomial", "--tables", "zones", "--lens", "nothing", code=1)
 
 

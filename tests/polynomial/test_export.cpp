@@ -1,180 +1,293 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exported source code, compiled and run where a compiler is installed, against the library.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
+#include <optional>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include "contrejour/expert/polynomial.h"
+#include "polynomial/asymmetric_basis.h"
 #include "polynomial/zone_rays.h"
+#include "support/coarse_polynomials.h"
+#include "support/scratch_folder.h"
 
 using namespace contrejour;
 
 namespace {
 
-constexpr std::array<std::array<double, 4>, 3> kRays{
-    {{0.02, 1.0, 0.5, 550.0}, {0.11, -2.0, 1.5, 450.0}, {0.2, 0.3, -2.0, 640.0}}};  // field, x, y, wavelength
+struct Call {
+  std::size_t ghost = 0;  // of the exported ones
+  Vec2 tangents, at_mm;
+  double lambda_nm = 550.0;
+};
 
-// The fit of a lens's ghosts, so coarse that it takes no time: the code is tested, not the accuracy.
-const LensPolynomials& fit() {
-  static const LensPolynomials made = [] {
-    const auto lens = configure_lens(*find_lens("cooke-triplet"));
-    REQUIRE(lens.has_value());
-    const auto fitted = fit_polynomials(*lens, {.position_px = 1e5,
-                                                .edge = 1e3,
-                                                .transmittance = 1e3,
-                                                .target_px = 1.0,
-                                                .max_order = 7,
-                                                .max_halvings = 1,
-                                                .scope = GhostScope::OneSideOfStop});
-    REQUIRE(fitted.has_value());
-    return *fitted;
+// A fit, and calls of the functions that it is exported as.
+struct Exported {
+  LensPolynomials fit;
+  std::vector<Ghost> ghosts;
+  std::vector<Call> calls;
+  bool is_centred = true;
+
+  [[nodiscard]] const GhostPolynomials& ghost_of(const Call& call) const {
+    return test::polynomials_of(fit, ghosts[call.ghost]);
+  }
+  [[nodiscard]] std::size_t bounds_count() const { return is_centred ? 3 : 4; }
+  [[nodiscard]] std::string name_of(const char* function) const {
+    return fmt::format("flare_{}{}", function, is_centred ? "" : "_at");
+  }
+  [[nodiscard]] std::string direction_of(const Call& call) const {
+    return is_centred ? fmt::format("{}, {}", call.ghost, call.tangents.x)
+                      : fmt::format("{}, {}, {}", call.ghost, call.tangents.x, call.tangents.y);
+  }
+  [[nodiscard]] std::string arguments_of(const Call& call) const {
+    return fmt::format("{}, {}, {}, {}", direction_of(call), call.at_mm.x, call.at_mm.y, call.lambda_nm);
+  }
+  [[nodiscard]] std::string code(PolynomialLanguage language) const {
+    const auto text = export_polynomials(fit, ghosts, language);
+    REQUIRE(text.has_value());
+    return *text;
+  }
+};
+
+const Exported& centred() {
+  static const Exported made = [] {
+    LensPolynomials fit = test::coarse_triplet_polynomials(7);
+    std::vector<Ghost> ghosts = test::fitted_ghosts(fit, 2);
+    std::vector<Call> calls;
+    for (std::size_t g = 0; g < ghosts.size(); ++g) {
+      calls.push_back({g, {0.02, 0.0}, {1.0, 0.5}, 550.0});
+      calls.push_back({g, {0.11, 0.0}, {-2.0, 1.5}, 450.0});
+      calls.push_back({g, {0.2, 0.0}, {0.3, -2.0}, 640.0});
+    }
+    return Exported{std::move(fit), std::move(ghosts), std::move(calls)};
   }();
   return made;
 }
 
-std::vector<Ghost> fitted_ghosts() {
-  std::vector<Ghost> ghosts;
-  for (const GhostPolynomials& ghost : fit().ghosts)
-    if (ghosts.size() < 2 && ghost.zones.front().state == PolynomialZone::State::Fitted) ghosts.push_back(ghost.ghost);
-  REQUIRE(!ghosts.empty());
-  return ghosts;
+std::mt19937& random_numbers() {
+  static std::mt19937 numbers(7);
+  return numbers;
+}
+float random_number() { return std::uniform_real_distribution(-1.0F, 1.0F)(random_numbers()); }
+
+ChebyshevSum random_sum(int degree, const polynomial::Parities& parities, int wavelength_terms) {
+  ChebyshevSum sum;
+  sum.degree = degree;
+  sum.wavelength_terms = wavelength_terms;
+  const int count = wavelength_terms * polynomial::asymmetric_term_count(degree, parities);
+  for (int k = 0; k < count; ++k) sum.coefficients.push_back(random_number());
+  return sum;
+}
+
+// A zone of a ghost without axial symmetry, of random polynomials, whose bounds have a part without light.
+AsymmetricZone random_zone(Vec2 low, Vec2 high, bool even_x, bool even_y, int degree) {
+  AsymmetricZone zone;
+  zone.state = PolynomialZone::State::Fitted;
+  zone.low = low, zone.high = high;
+  zone.even_x = even_x, zone.even_y = even_y;
+  zone.radius_mm = {4.0, 5.0};
+  for (std::size_t k = 0; k < zone.centre_x_mm.size(); ++k)
+    zone.centre_x_mm[k] = random_number(), zone.centre_y_mm[k] = random_number();
+  const auto vector = [&](int of) {
+    return AsymmetricVector{random_sum(of, polynomial::parities_of_x(zone), 2),
+                            random_sum(of, polynomial::parities_of_y(zone), 1)};
+  };
+  zone.sensor_mm = vector(degree);
+  zone.stop.push_back(vector(3));
+  const polynomial::Parities scalars = polynomial::parities_of_scalar(zone);
+  for (int step = 0; step < 2; ++step) zone.rims.push_back({step, random_sum(2, scalars, 1)});
+  zone.transmittance = random_sum(4, scalars, 13);
+  zone.bounds_side = 4;
+  for (int k = 0; k < 16; ++k) {
+    const float x = random_number(), y = random_number();
+    zone.bounds.push_back(k % 4 == 3 ? AsymmetricBounds{} : AsymmetricBounds{x - 2.0F, y - 1.0F, x + 1.0F, y + 3.0F});
+  }
+  return zone;
+}
+
+// One ghost with a mirror plane and zones in its middle and on one side, and one without.
+const Exported& decentred() {
+  static const Exported made = [] {
+    LensPolynomials fit;
+    fit.lens = "random";
+    fit.ghosts.push_back({{1, 2}, {{}}, {}, true, false});
+    fit.ghosts.front().asymmetric = {random_zone({-0.1, -0.2}, {0.1, 0.3}, true, false, 13),
+                                     random_zone({0.1, -0.2}, {0.4, 0.3}, false, false, 5)};
+    fit.ghosts.push_back({{3, 4}, {{}}, {}, true, true});
+    fit.ghosts.back().asymmetric = {random_zone({-0.3, -0.2}, {0.3, 0.2}, true, true, 9)};
+    std::vector<Call> calls;
+    for (const std::size_t ghost : {std::size_t{0}, std::size_t{1}})
+      for (const Vec2 tangents : {Vec2{0.05, -0.1}, Vec2{-0.07, 0.12}, Vec2{0.23, 0.15}, Vec2{-0.28, -0.11},
+                                  Vec2{-0.1 + 1e-9, 0.199}, Vec2{0.5, 0.0}})
+        calls.push_back({ghost, tangents, {1.5, -0.7}, 430.0 + 50.0 * static_cast<double>(calls.size() % 5)});
+    return Exported{std::move(fit), {{1, 2}, {3, 4}}, std::move(calls), false};
+  }();
+  return made;
+}
+
+struct Expected {
+  PolynomialRay ray;
+  std::vector<double> bounds;
+};
+
+std::optional<Expected> expected_of(const Exported& exported, const Call& call) {
+  const GhostPolynomials& ghost = exported.ghost_of(call);
+  if (exported.is_centred) {
+    const double field = call.tangents.x;
+    const PolynomialZone* const zone = find_zone(ghost, field);
+    if (zone == nullptr || zone->state != PolynomialZone::State::Fitted) return std::nullopt;
+    const PolynomialBounds b = polynomial::bounds_between(*zone, field);
+    return Expected{evaluate(exported.fit, *zone, field, call.at_mm, call.lambda_nm),
+                    {b.low_x_mm, b.high_x_mm, b.half_y_mm}};
+  }
+  const auto ray = evaluate(exported.fit, ghost, call.tangents, call.at_mm, call.lambda_nm);
+  if (!ray) return std::nullopt;
+  const FoundAsymmetricZone found = find_zone(ghost, call.tangents);
+  const auto mirrored = [&](Vec2 v) { return Vec2{found.mirrored_x ? -v.x : v.x, found.mirrored_y ? -v.y : v.y}; };
+  const AsymmetricBounds b = polynomial::bounds_between(*found.zone, mirrored(call.tangents));
+  const Vec2 low = mirrored({b.low_x_mm, b.low_y_mm}), high = mirrored({b.high_x_mm, b.high_y_mm});
+  return Expected{*ray,
+                  {std::min(low.x, high.x), std::min(low.y, high.y), std::max(low.x, high.x), std::max(low.y, high.y)}};
 }
 
 bool runs(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
 
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("contrejour-export-{}", std::rand())) {
-    std::filesystem::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::string file(const char* name) const { return (path_ / name).string(); }
-  void write(const char* name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-
- private:
-  std::filesystem::path path_;
-};
+void check_values(const std::vector<double>& values, const Expected& expected) {
+  const PolynomialRay& ray = expected.ray;
+  CHECK(values[0] == doctest::Approx(ray.sensor_mm.x).epsilon(1e-9));
+  CHECK(values[1] == doctest::Approx(ray.sensor_mm.y).epsilon(1e-9));
+  CHECK(values[2] == doctest::Approx(ray.stop[0].x).epsilon(1e-9));
+  CHECK(values[3] == doctest::Approx(ray.stop[0].y).epsilon(1e-9));
+  CHECK(std::sqrt(values[8]) == doctest::Approx(ray.relative_height).epsilon(1e-9));
+  CHECK(values[9] == doctest::Approx(ray.transmittance).epsilon(1e-9));
+  for (std::size_t k = 0; k < expected.bounds.size(); ++k) CHECK(values[10 + k] == doctest::Approx(expected.bounds[k]));
+}
 
 // Compares the numbers that a program printed with the library's.
-void check_printed(const std::string& file) {
+void check_printed(const Exported& exported, const std::string& file) {
   std::ifstream printed(file);
   int compared = 0;
-  for (const Ghost& ghost : fitted_ghosts()) {
-    const auto& of = *std::ranges::find(fit().ghosts, ghost, &GhostPolynomials::ghost);
-    for (const auto& [field, x, y, lambda_nm] : kRays) {
-      const PolynomialZone* const zone = find_zone(of, field);
-      const bool fitted = zone != nullptr && zone->state == PolynomialZone::State::Fitted;
-      int is_fitted = 0;
-      REQUIRE(static_cast<bool>(printed >> is_fitted));
-      CHECK((is_fitted != 0) == fitted);
-      if (!fitted) continue;
-      std::array<double, 10> values{};
-      for (double& value : values) REQUIRE(static_cast<bool>(printed >> value));
-      const PolynomialRay ray = evaluate(fit(), *zone, field, {x, y}, lambda_nm);
-      CHECK(values[0] == doctest::Approx(ray.sensor_mm.x).epsilon(1e-9));
-      CHECK(values[1] == doctest::Approx(ray.sensor_mm.y).epsilon(1e-9));
-      CHECK(values[2] == doctest::Approx(ray.stop[0].x).epsilon(1e-9));
-      CHECK(values[3] == doctest::Approx(ray.stop[0].y).epsilon(1e-9));
-      CHECK(std::sqrt(values[8]) == doctest::Approx(ray.relative_height).epsilon(1e-9));
-      CHECK(values[9] == doctest::Approx(ray.transmittance).epsilon(1e-9));
-      std::array<double, 3> bounds{};
-      for (double& value : bounds) REQUIRE(static_cast<bool>(printed >> value));
-      const PolynomialBounds expected = polynomial::bounds_between(*zone, field);
-      CHECK(bounds[0] == doctest::Approx(expected.low_x_mm));
-      CHECK(bounds[1] == doctest::Approx(expected.high_x_mm));
-      CHECK(bounds[2] == doctest::Approx(expected.half_y_mm));
-      ++compared;
-    }
+  for (const Call& call : exported.calls) {
+    CAPTURE(exported.arguments_of(call));
+    const auto expected = expected_of(exported, call);
+    int is_fitted = 0;
+    REQUIRE(static_cast<bool>(printed >> is_fitted));
+    CHECK((is_fitted != 0) == expected.has_value());
+    if (!expected || is_fitted == 0) continue;
+    std::vector<double> values(10 + exported.bounds_count());
+    for (double& value : values) REQUIRE(static_cast<bool>(printed >> value));
+    check_values(values, *expected);
+    ++compared;
   }
-  CHECK(compared > 0);
+  CHECK(compared > 1);
+}
+
+void check_c(const Exported& exported) {
+  std::string main = "#include <stdio.h>\nint main(void) {\n  double o[14];\n";
+  for (const Call& call : exported.calls)
+    main += fmt::format(
+        "  if (!{}({}, o)) puts(\"0\");\n  else {{\n    printf(\"1\");\n    {}({}, o + 10);\n    for (int i = 0; i < "
+        "{}; "
+        "++i) printf(\" %.17g\", o[i]);\n    puts(\"\");\n  }}\n",
+        exported.name_of("ray"), exported.arguments_of(call), exported.name_of("bounds"), exported.direction_of(call),
+        10 + exported.bounds_count());
+  const test::ScratchFolder folder;
+  const std::string source = (folder / "ghosts.c").string(), program = (folder / "ghosts").string(),
+                    out = (folder / "out").string();
+  std::ofstream(source) << exported.code(PolynomialLanguage::C) << main << "  return 0;\n}\n";
+  REQUIRE(runs(fmt::format("cc -std=c99 -Wall -Wextra -Werror -O0 {} -o {}", source, program)));
+  REQUIRE(std::system(fmt::format("{} > {}", program, out).c_str()) == 0);
+  check_printed(exported, out);
+}
+
+void check_python(const Exported& exported) {
+  std::string calls;
+  for (const Call& call : exported.calls)
+    calls += fmt::format(
+        "r = {}({})\nb = {}({}) or [0] * {}\nprint(0 if r is None else '1 ' + ' '.join(map(repr, r + b)))\n",
+        exported.name_of("ray"), exported.arguments_of(call), exported.name_of("bounds"), exported.direction_of(call),
+        exported.bounds_count());
+  const test::ScratchFolder folder;
+  const std::string source = (folder / "ghosts.py").string(), out = (folder / "out").string();
+  std::ofstream(source) << exported.code(PolynomialLanguage::Python) << "\n\n" << calls;
+  REQUIRE(std::system(fmt::format("python3 {} > {}", source, out).c_str()) == 0);
+  check_printed(exported, out);
+}
+
+// The statements of a shader's main function that use both exported functions.
+std::string shader_body(const Exported& exported, const char* four) {
+  const Call& call = exported.calls.front();
+  return fmt::format(
+      "  float r[10], b[{}];\n  bool ok = {}({}, r) && {}({}, b);\n  {}4 colour_of = ok ? {}4(r[0], r[1], "
+      "b[0], r[9]) : {}4(0.0, 0.0, 0.0, 0.0);\n",
+      exported.bounds_count(), exported.name_of("ray"), exported.arguments_of(call), exported.name_of("bounds"),
+      exported.direction_of(call), four, four, four);
+}
+
+void check_shaders(const Exported& exported) {
+  const test::ScratchFolder folder;
+  const auto compiles = [&](const char* name, const std::string& options, const std::string& text) {
+    const std::string file = (folder / name).string();
+    std::ofstream(file) << text;
+    return runs("glslangValidator " + options + " " + file);
+  };
+  const std::string code = exported.code(PolynomialLanguage::Glsl);
+  const std::string main =
+      "out vec4 colour;\nvoid main() {\n" + shader_body(exported, "vec") + "  colour = colour_of;\n}\n";
+  CHECK(compiles("ghosts.frag", "", "#version 330\n" + code + main));
+  CHECK(compiles("buffer.frag", "",
+                 "#version 430\nlayout(std430, binding = 0) buffer In { float numbers[]; };\n"
+                 "#define flare_COEFFICIENT(i) numbers[i]\n" +
+                     code + main));
+  CHECK(compiles("ghosts.hlsl", "-D -V -S frag -e main -o /dev/null",
+                 exported.code(PolynomialLanguage::Hlsl) + "float4 main() : SV_Target {\n" +
+                     shader_body(exported, "float") + "  return colour_of;\n}\n"));
+}
+
+// False, with a message, where a program is not installed.
+bool is_installed(const std::string& program) {
+  const bool found = runs(program + " --version");
+  if (!found) MESSAGE("skipped: there is no ", program);
+  return found;
 }
 
 }  // namespace
 
 TEST_CASE("exported C compiles and gives the library's values") {
-  if (!runs("cc --version")) {
-    MESSAGE("skipped: there is no C compiler `cc`");
-    return;
-  }
-  const auto code = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::C);
-  REQUIRE(code.has_value());
-  std::string main = "#include <stdio.h>\nint main(void) {\n  double o[13];\n";
-  for (std::size_t g = 0; g < fitted_ghosts().size(); ++g)
-    for (const auto& [field, x, y, lambda_nm] : kRays)
-      main += fmt::format(
-          "  if (!flare_ray({}, {}, {}, {}, {}, o)) puts(\"0\");\n  else {{ printf(\"1\"); for (int i = 0; "
-          "i < 10; ++i) printf(\" %.17g\", o[i]); flare_bounds({}, {}, o + 10); printf(\" %.17g %.17g %.17g\\n\", "
-          "o[10], o[11], o[12]); }}\n",
-          g, field, x, y, lambda_nm, g, field);
-  const Folder folder;
-  folder.write("ghosts.c", *code + main + "  return 0;\n}\n");
-  REQUIRE(runs(fmt::format("cc -std=c99 -Wall -Werror -O0 {} -o {}", folder.file("ghosts.c"), folder.file("ghosts"))));
-  REQUIRE(std::system(fmt::format("{} > {}", folder.file("ghosts"), folder.file("out")).c_str()) == 0);
-  check_printed(folder.file("out"));
+  if (is_installed("cc")) check_c(centred());
+}
+
+TEST_CASE("exported C of ghosts without axial symmetry compiles and gives the library's values") {
+  if (is_installed("cc")) check_c(decentred());
 }
 
 TEST_CASE("exported Python gives the library's values") {
-  if (!runs("python3 --version")) {
-    MESSAGE("skipped: there is no python3");
-    return;
-  }
-  const auto code = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::Python);
-  REQUIRE(code.has_value());
-  std::string calls;
-  for (std::size_t g = 0; g < fitted_ghosts().size(); ++g)
-    for (const auto& [field, x, y, lambda_nm] : kRays)
-      calls += fmt::format(
-          "r = flare_ray({}, {}, {}, {}, {})\nb = flare_bounds({}, {}) or [0, 0, 0]\n"
-          "print(0 if r is None else '1 ' + ' '.join(map(repr, r + b)))\n",
-          g, field, x, y, lambda_nm, g, field);
-  const Folder folder;
-  folder.write("ghosts.py", *code + "\n\n" + calls);
-  REQUIRE(std::system(fmt::format("python3 {} > {}", folder.file("ghosts.py"), folder.file("out")).c_str()) == 0);
-  check_printed(folder.file("out"));
+  if (is_installed("python3")) check_python(centred());
+}
+
+TEST_CASE("exported Python of ghosts without axial symmetry gives the library's values") {
+  if (is_installed("python3")) check_python(decentred());
 }
 
 TEST_CASE("exported GLSL and HLSL compile") {
-  if (!runs("glslangValidator --version")) {
-    MESSAGE("skipped: there is no glslangValidator");
-    return;
-  }
-  const auto code = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::Glsl);
-  REQUIRE(code.has_value());
-  const Folder folder;
-  folder.write("ghosts.frag", "#version 330\n" + *code +
-                                  "out vec4 colour;\nvoid main() {\n  float r[10];\n  bool ok = flare_ray(0, 0.1, 1.0, "
-                                  "0.5, 550.0, r);\n  colour = ok ? vec4(r[0], r[1], r[8], r[9]) : vec4(0.0);\n}\n");
-  CHECK(runs("glslangValidator " + folder.file("ghosts.frag")));
-  folder.write("buffer.frag",
-               "#version 430\nlayout(std430, binding = 0) buffer In { float numbers[]; };\n"
-               "#define flare_COEFFICIENT(i) numbers[i]\n" +
-                   *code +
-                   "out vec4 colour;\nvoid main() {\n  float r[10];\n  colour = flare_ray(0, 0.1, 1.0, 0.5, "
-                   "550.0, r) ? vec4(r[0]) : vec4(0.0);\n}\n");
-  CHECK(runs("glslangValidator " + folder.file("buffer.frag")));
-  const auto hlsl = export_polynomials(fit(), fitted_ghosts(), PolynomialLanguage::Hlsl);
-  REQUIRE(hlsl.has_value());
-  folder.write("ghosts.hlsl",
-               *hlsl +
-                   "float4 main() : SV_Target {\n  float r[10];\n  bool ok = flare_ray(0, 0.1, 1.0, 0.5, "
-                   "550.0, r);\n  return ok ? float4(r[0], r[1], r[8], r[9]) : 0.0;\n}\n");
-  CHECK(runs("glslangValidator -D -V -S frag -e main -o /dev/null " + folder.file("ghosts.hlsl")));
+  if (is_installed("glslangValidator")) check_shaders(centred());
+}
+
+TEST_CASE("exported GLSL and HLSL of ghosts without axial symmetry compile") {
+  if (is_installed("glslangValidator")) check_shaders(decentred());
 }
 
 TEST_CASE("a ghost that the fit does not have and a wrong prefix are refused") {
-  CHECK(!export_polynomials(fit(), {{1, 99}}, PolynomialLanguage::C).has_value());
-  CHECK(!export_polynomials(fit(), {}, PolynomialLanguage::C, "2x").has_value());
-  CHECK(!export_polynomials(fit(), {}, PolynomialLanguage::C, "").has_value());
+  const LensPolynomials& fit = centred().fit;
+  CHECK(!export_polynomials(fit, {{1, 99}}, PolynomialLanguage::C).has_value());
+  CHECK(!export_polynomials(fit, {}, PolynomialLanguage::C, "2x").has_value());
+  CHECK(!export_polynomials(fit, {}, PolynomialLanguage::C, "").has_value());
 }

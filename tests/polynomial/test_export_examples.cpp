@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/expert/direct_polynomials.h"
+#include "support/coarse_polynomials.h"
 #include "support/scratch_folder.h"
 
 using namespace contrejour;
@@ -62,17 +63,9 @@ TEST_CASE("the example of a game's shaders compiles") {
     MESSAGE("skipped: there is no glslangValidator");
     return;
   }
-  const auto lens = configure_lens(*find_lens("cooke-triplet"));
-  REQUIRE(lens.has_value());
-  const auto fit = fit_polynomials(*lens, {.position_px = 1e5,
-                                           .edge = 1e3,
-                                           .transmittance = 1e3,
-                                           .max_order = 5,
-                                           .max_halvings = 0,
-                                           .ghosts = {{1, 2}, {3, 6}}});
-  REQUIRE(fit.has_value());
+  const LensPolynomials fit = test::coarse_triplet_polynomials(5, {{1, 2}, {3, 6}});
   const test::ScratchFolder folder;
-  std::ofstream(folder / "ghosts.hlsl") << *export_polynomials(*fit, {{1, 2}, {3, 6}}, PolynomialLanguage::Hlsl);
+  std::ofstream(folder / "ghosts.hlsl") << *export_polynomials(fit, {{1, 2}, {3, 6}}, PolynomialLanguage::Hlsl);
   for (const auto& [stage, entry] : {std::pair{"vert", "vertex_main"}, std::pair{"frag", "pixel_main"}})
     CHECK(ends_well(fmt::format("glslangValidator -D -V -S {} -e {} -I{} -o /dev/null {}/game/ghosts_draw.hlsl", stage,
                                 entry, (folder / "").string(), kExamples)));

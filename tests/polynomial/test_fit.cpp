@@ -12,10 +12,10 @@ using namespace contrejour;
 
 namespace {
 
-LensState lens_of(const char* name) {
+LensState lens_of(const char* name, const LensSettings& settings = {}) {
   const auto lens = find_lens(name);
   REQUIRE(lens.has_value());
-  const auto state = configure_lens(*lens);
+  const auto state = configure_lens(*lens, settings);
   REQUIRE(state.has_value());
   return *state;
 }
@@ -36,7 +36,7 @@ const LensPolynomials& tessar_fit() {
 
 struct Errors {
   std::vector<double> position_px, stop, transmittance;
-  int open = 0, wrongly_open = 0;
+  int open = 0, wrongly_open = 0, brought_in = 0;
 };
 
 // Compares a zone with rays through a grid over its bounds, at one field and wavelength.
@@ -62,8 +62,12 @@ void compare(const LensState& lens, const LensPolynomials& fit, const GhostPolyn
     if (far && fitted.relative_height <= 1.0 && length(fitted.stop[0]) <= 1.0) ++errors.wrongly_open;
     if (!open) continue;
     ++errors.open;
-    errors.position_px.push_back(length(traced.sensor_mm - fitted.sensor_mm) / fit.pixel_mm);
     errors.stop.push_back(length(traced.stop[0] - fitted.stop[0]));
+    // A fit states no accuracy of light that lands outside of the frame, but must leave it there.
+    const double half_mm = 0.5 * std::hypot(lens.sensor_width_mm, lens.sensor_height_mm);
+    if (length(traced.sensor_mm) > 1.7 * half_mm && length(fitted.sensor_mm) < half_mm) ++errors.brought_in;
+    if (length(traced.sensor_mm) > 1.1 * half_mm) continue;
+    errors.position_px.push_back(length(traced.sensor_mm - fitted.sensor_mm) / fit.pixel_mm);
     errors.transmittance.push_back(std::abs(traced.transmission - fitted.transmittance) / largest);
   }
 }
@@ -95,6 +99,7 @@ TEST_CASE("fitted zones agree with the scalar tracer within their stated toleran
   CHECK(fitted >= 5);
   CHECK(errors.open > 1000);
   CHECK(errors.wrongly_open == 0);
+  CHECK(errors.brought_in == 0);
   CHECK(quantile_95(errors.position_px) <= 0.25);
   CHECK(quantile_95(errors.stop) <= 1e-3);
   CHECK(quantile_95(errors.transmittance) <= 2e-3);
@@ -105,6 +110,24 @@ TEST_CASE("ghosts of the Heliar whose map is singular next to the light are fitt
   const auto fit = fit_polynomials(lens_of("heliar"), {.max_halvings = 2, .ghosts = {{1, 5}, {7, 9}}});
   REQUIRE(fit.has_value());
   CHECK(traced_flux_fraction(*fit) < 0.5);
+}
+
+// Positions of rays that land far outside vary by more than a polynomial follows: with these counting in proportion to
+// the inverse of their distance, 95 per cent of errors within the frame were up to 24 pixels.
+TEST_CASE("a ghost most of whose light lands outside of the frame is fitted [slow]") {
+  const LensState lens = wide_open(lens_of("itoh-zoom", {.focal_length_mm = 123.0}));
+  const auto fit = fit_polynomials(lens, {.max_halvings = 1, .ghosts = {{16, 17}}});
+  REQUIRE(fit.has_value());
+  CHECK(traced_flux_fraction(*fit) == 0.0);
+  Errors errors;
+  for (const PolynomialZone& zone : fit->ghosts.front().zones)
+    if (zone.state == PolynomialZone::State::Fitted) compare(lens, *fit, fit->ghosts.front(), zone, errors);
+  CHECK(errors.open > 300);
+  CHECK(errors.position_px.size() < 0.7 * errors.open);
+  CHECK(errors.wrongly_open == 0);
+  CHECK(errors.brought_in == 0);
+  CHECK(quantile_95(errors.position_px) <= 0.25);
+  CHECK(quantile_95(errors.transmittance) <= 2e-3);
 }
 
 TEST_CASE("zones of a ghost adjoin from the axis to the largest field") {

@@ -14,6 +14,7 @@
 #include "contrejour/expert/polynomial.h"
 #include "device.h"
 #include "run_shader.h"
+#include "support/coarse_polynomials.h"
 #include "support/scratch_folder.h"
 
 using namespace contrejour;
@@ -23,21 +24,6 @@ namespace {
 constexpr std::array<std::array<double, 4>, 3> kExportedRays{
     {{0.02, 1.0, 0.5, 550.0}, {0.11, -2.0, 1.5, 450.0}, {0.2, 0.3, -2.0, 640.0}}};  // field, x, y, wavelength
 constexpr std::size_t kRayFloats = 11;  // whether the ghost is fitted, and the ray
-
-// A fit so coarse that it takes no time: the code is tested, not the accuracy.
-LensPolynomials coarse_fit() {
-  const auto lens = configure_lens(*find_lens("cooke-triplet"));
-  REQUIRE(lens.has_value());
-  const auto fitted = fit_polynomials(*lens, {.position_px = 1e5,
-                                              .edge = 1e3,
-                                              .transmittance = 1e3,
-                                              .target_px = 1.0,
-                                              .max_order = 5,
-                                              .max_halvings = 0,
-                                              .scope = GhostScope::OneSideOfStop});
-  REQUIRE(fitted.has_value());
-  return *fitted;
-}
 
 // The coefficients that exported C has as an array.
 std::vector<float> coefficients_in(const std::string& c_code) {
@@ -86,7 +72,7 @@ void check_rays(const LensPolynomials& fit, const Ghost& ghost, const std::vecto
   constexpr double kSensor_mm = 2e-4, kStop = 2e-5, kTransmittance = 1e-5;
   auto at = values.begin() + 4 * kExportedRays.size();
   int compared = 0;
-  const auto& of = *std::ranges::find(fit.ghosts, ghost, &GhostPolynomials::ghost);
+  const GhostPolynomials& of = test::polynomials_of(fit, ghost);
   for (const auto& [field, x, y, lambda_nm] : kExportedRays) {
     const PolynomialZone* const zone = find_zone(of, field);
     const bool fitted = zone != nullptr && zone->state == PolynomialZone::State::Fitted;
@@ -129,20 +115,17 @@ bool has_compiler() {
 
 TEST_CASE("exported GLSL and HLSL give the library's values on a device [slow]") {
   if (!has_compiler()) return;
-  const LensPolynomials fit = coarse_fit();
-  const auto fitted = std::ranges::find_if(fit.ghosts, [](const GhostPolynomials& ghost) {
-    return ghost.zones.front().state == PolynomialZone::State::Fitted;
-  });
-  REQUIRE(fitted != fit.ghosts.end());
-  const auto coefficients = coefficients_in(*export_polynomials(fit, {fitted->ghost}, PolynomialLanguage::C));
+  const LensPolynomials fit = test::coarse_triplet_polynomials(5);
+  const Ghost ghost = test::fitted_ghosts(fit, 1).front();
+  const auto coefficients = coefficients_in(*export_polynomials(fit, {ghost}, PolynomialLanguage::C));
   for (const auto language : {PolynomialLanguage::Glsl, PolynomialLanguage::Hlsl}) {
-    const auto code = export_polynomials(fit, {fitted->ghost}, language);
+    const auto code = export_polynomials(fit, {ghost}, language);
     REQUIRE(code.has_value());
     const auto values =
         written_by(language, compute_shader(language, *code, 12 + kRayFloats * kExportedRays.size(), kRayBody),
                    buffer_of(kExportedRays, kRayFloats * kExportedRays.size(), coefficients));
     if (!values) return;
-    check_rays(fit, fitted->ghost, *values);
+    check_rays(fit, ghost, *values);
   }
   test::check_no_messages();
 }

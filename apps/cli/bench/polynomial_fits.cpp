@@ -320,7 +320,7 @@ Result<PolynomialFits> FitsBench::measure() {
 
 }  // namespace
 
-const std::vector<std::string>& polynomial_tables() {
+const std::vector<std::string>& published_fit_tables() {
   static const std::vector<std::string> kTables{"dense", "algorithms", "annealing", "variation", "unfitted", "zones"};
   return kTables;
 }

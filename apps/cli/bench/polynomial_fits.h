@@ -47,7 +47,7 @@ struct PolynomialBenchOptions {
   std::uint64_t seed = 1;
 };
 
-[[nodiscard]] const std::vector<std::string>& polynomial_tables();
+[[nodiscard]] const std::vector<std::string>& published_fit_tables();
 [[nodiscard]] Result<PolynomialFits> measure_polynomial_fits(const PolynomialBenchOptions& options,
                                                              const Context& context);
 

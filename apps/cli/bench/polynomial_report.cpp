@@ -78,6 +78,7 @@ LineChart chart_of(const PolynomialFits& fits, std::string_view plot, const Axis
 }  // namespace
 
 std::string polynomial_fits_text(const PolynomialFits& fits) {
+  if (fits.rows.empty()) return "";
   std::string text =
       "Errors are root mean squares, in units of the thesis's scene; its times are those of a Core i7-8700K\nwith up "
       "to six threads, ours processor time.\n";

@@ -74,23 +74,9 @@ fs::path cache_file(const BenchScene& scene, const std::string& folder) {
                                  s.frame.height, s.wavelengths, params::reference_options(scene.values).density);
   if (std::holds_alternative<SelectList>(s.selection)) name += "-paper-ghosts";
   if (!scene.coating.empty()) name += "-" + scene.coating;
+  if (scene.variant.full_aperture) name += "-full-aperture";
   std::ranges::replace(name, '/', '_');  // for the name of a file with reflectances
   return fs::path(folder) / (name + ".exr");
-}
-
-Result<Image> reference_image(const BenchScene& scene, const BenchRunning& running) {
-  const BenchRequest request{static_cast<int>(scene.lights.size()), kReference};
-  if (running.cache.empty()) {
-    return render_scene(scene, request, running.threads).map([](Flare flare) { return std::move(flare.image); });
-  }
-  const fs::path file = cache_file(scene, running.cache);
-  if (fs::exists(file)) return read_picture(file).map([](Picture picture) { return std::move(picture.rgb); });
-  auto flare = render_scene(scene, request, running.threads);
-  if (!flare) return tl::unexpected(flare.error());
-  std::error_code ignored;  // if the folder cannot be created, writing reports the error
-  fs::create_directories(running.cache, ignored);
-  if (const auto ok = write_exr(file, flare->image); !ok) return tl::unexpected(ok.error());
-  return std::move(flare->image);
 }
 
 // nullopt if there is no picture to compare with.
@@ -175,6 +161,21 @@ Result<BenchScene> bench_scene(const PaperSystem& system, int light_count, const
   return scene;
 }
 
+Result<Image> reference_picture(const BenchScene& scene, const BenchRunning& running) {
+  const BenchRequest request{static_cast<int>(scene.lights.size()), kReference};
+  if (running.cache.empty()) {
+    return render_scene(scene, request, running.threads).map([](Flare flare) { return std::move(flare.image); });
+  }
+  const fs::path file = cache_file(scene, running.cache);
+  if (fs::exists(file)) return read_picture(file).map([](Picture picture) { return std::move(picture.rgb); });
+  auto flare = render_scene(scene, request, running.threads);
+  if (!flare) return tl::unexpected(flare.error());
+  std::error_code ignored;  // if the folder cannot be created, writing reports the error
+  fs::create_directories(running.cache, ignored);
+  if (const auto ok = write_exr(file, flare->image); !ok) return tl::unexpected(ok.error());
+  return std::move(flare->image);
+}
+
 SelectList papers_ghosts(const BenchScene& scene) {
   SelectList list;
   const int last = static_cast<int>(scene.lens.surfaces.size());
@@ -197,7 +198,7 @@ Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchReque
   if (own_requests.empty()) return {};
   Truths truths;
   if (running.reference && scene.variant == SceneVariant{} && has_papers_lights(scene)) {
-    auto image = reference_image(scene, running);
+    auto image = reference_picture(scene, running);
     if (!image) return tl::unexpected(image.error());
     truths.reference = std::move(*image);
   }

@@ -38,6 +38,9 @@ struct BenchRunning {
   std::string cache;       // folder of the reference's pictures; may be empty
 };
 
+// The picture of `reference`, from the cache's folder if it has it, else drawn and kept there.
+[[nodiscard]] Result<Image> reference_picture(const BenchScene& scene, const BenchRunning& running);
+
 // Adds a row for each request that belongs to this scene. Rows are compared with the pictures of bundle and of unmerged
 // tiles if these are among the requests.
 [[nodiscard]] Result<void> measure_scene(const BenchScene& scene, const std::vector<BenchRequest>& requests,

@@ -60,9 +60,9 @@ struct ChebyshevVector {
 };
 
 struct PolynomialAccuracy {
-  double position_p50_px = 0.0, position_p95_px = 0.0, position_max_px = 0.0;
+  double position_p50_px = 0.0, position_p95_px = 0.0, position_max_px = 0.0;  // of light in or near the frame
   double edge_p95 = 0.0;  // radii, of the stop and of rims
-  double transmittance_p95 = 0.0;  // relative to the largest
+  double transmittance_p95 = 0.0;  // relative to the largest, of the same light
   int rays = 0;  // left out of the fit, and compared
 };
 
@@ -189,11 +189,14 @@ struct PolynomialRay {
 // and HLSL they are written to an array, and the function returns whether the ghost is fitted at that field; Python
 // returns None where it is not.
 //   bounds(ghost, field): 3 numbers in the same way, the lowest and highest x and half the height of the part of the
-// entrance plane in which the ghost's light enters, with a margin. In GLSL and HLSL a program that defines the macro
-// COEFFICIENT(i), with the prefix, before the code has no table of coefficients, which it then reads from a buffer of
-// its own: C has them as an array. Names begin with `prefix`. Errors: InvalidArgument for a ghost that the fit does not
-// have, and for a prefix that is no identifier. Accuracy: that of the fit; GLSL and HLSL in float, the others in
-// double.
+// entrance plane in which the ghost's light enters, with a margin.
+// For ghosts without axial symmetry it defines, in the lens's frame,
+//   ray_at(ghost, tangent_x, tangent_y, x_mm, y_mm, lambda_nm): light travels along (tangent_x, tangent_y, 1),
+//   bounds_at(ghost, tangent_x, tangent_y): 4 numbers, the lowest x and y and the highest x and y.
+// In GLSL and HLSL a program that defines the macro COEFFICIENT(i), with the prefix, before the code has no table of
+// coefficients, which it then reads from a buffer of its own: C has them as an array. Names begin with `prefix`.
+// Errors: InvalidArgument for a ghost that the fit does not have, and for a prefix that is no identifier. Accuracy:
+// that of the fit; GLSL and HLSL in float, the others in double.
 enum class PolynomialLanguage : std::uint8_t { C, Glsl, Hlsl, Python };
 [[nodiscard]] CONTREJOUR_API Result<std::string> export_polynomials(const LensPolynomials& polynomials,
                                                                     const std::vector<Ghost>& ghosts,

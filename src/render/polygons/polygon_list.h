@@ -77,7 +77,7 @@ struct Pattern {
   // polygon's rows from top to bottom.
   std::uint32_t first = 0, count = 0;
   std::uint32_t samples = 1;  // across a pixel, and down it, of which the mean is taken; 1 for Pixels
-  PatternMap map;  // not for Pixels
+  PatternMap map = {};  // not for Pixels
 };
 
 // The factors of one bound at even steps of the distance, from 0 at dark_beyond outside it to 1 at level_within inside.
