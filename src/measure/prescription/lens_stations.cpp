@@ -18,12 +18,6 @@ constexpr double kDrawingError = 0.001;
 constexpr double kMaskedRadii = 2.5;  // of the light's image, beyond which its blurred edge is dim
 constexpr double kMaskedEdge_px = 2.0;
 
-// The spread of red and blue in merged pictures of a Bayer mosaic, beyond that of a full pixel. A red pixel has half
-// the width, a variance of (1/2)^2 / 12, and lies a quarter off the middle, where stations.cpp interpolates it from two
-// with weights of 3/4 and 1/4: a variance of 3/16. A full pixel has 1/12, and so has green: two half pixels a quarter
-// off.
-constexpr double kMosaicSpread_px2 = 0.25 / 12.0 + 3.0 / 16.0 - 1.0 / 12.0;
-
 // A sweep whose pictures say how large they are, and whether they come from a mosaic.
 struct SizedSweep {
   FlareSweep sweep;
@@ -69,7 +63,7 @@ Result<LensStations> lens_stations(const LensPhotographs& photographs, const Len
   stations.full_pitch_mm = pitch_mm;
   stations.source_radius_px = reduced.focal_length_px * std::tan(photographs.source_radius_rad);
   stations.source_radius_rad = photographs.source_radius_rad;
-  if (*with_size.mosaic) stations.mosaic_spread_px2 = kMosaicSpread_px2 / (block * block);
+  stations.is_mosaic = *with_size.mosaic;
   stations.spectrum = photographs.spectrum;
   return stations;
 }
@@ -98,31 +92,6 @@ Light light_of(const LensStations& stations, std::size_t k, const LensState& len
   return light;
 }
 
-Patch spread_red_and_blue(const Patch& patch, double variance_px2) {
-  if (patch.image.pixels.empty()) return patch;
-  // Three pixels of weights a, 1 - 2 a and a have the variance 2 a.
-  const double side = 0.5 * variance_px2, middle = 1.0 - variance_px2;
-  Patch spread{patch.left - 1, patch.top - 1, Image(patch.image.width + 2, patch.image.height + 2)};
-  const auto level = [&](int x, int y, int c) {
-    const bool inside = x >= 0 && y >= 0 && x < patch.image.width && y < patch.image.height;
-    return inside ? static_cast<double>(patch.image.at(x, y, c)) : 0.0;
-  };
-  const auto along_row = [&](int x, int y, int c) {
-    return middle * level(x, y, c) + side * (level(x - 1, y, c) + level(x + 1, y, c));
-  };
-  for (int y = 0; y < spread.image.height; ++y) {
-    for (int x = 0; x < spread.image.width; ++x) {
-      const int u = x - 1, v = y - 1;
-      spread.image.at(x, y, 1) = static_cast<float>(level(u, v, 1));
-      for (const int c : {0, 2}) {
-        spread.image.at(x, y, c) =
-            static_cast<float>(middle * along_row(u, v, c) + side * (along_row(u, v - 1, c) + along_row(u, v + 1, c)));
-      }
-    }
-  }
-  return spread;
-}
-
 Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size_t k, const LensState& lens,
                                          const Frame& frame, const std::vector<Ghost>& ghosts, const Context& context) {
   const Light light = light_of(stations, k, lens, frame);
@@ -138,9 +107,7 @@ Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size
   std::vector<Patch> patches(ghosts.size() + 1);
   for (FlareLayer& layer : flare->layers) {
     const auto at = std::ranges::find_if(ghosts, [&](const Ghost& g) { return layer_name(g) == layer.name; });
-    Patch patch{layer.left, layer.top, std::move(layer.image)};
-    if (stations.mosaic_spread_px2 > 0.0) patch = spread_red_and_blue(patch, stations.mosaic_spread_px2);
-    patches[static_cast<std::size_t>(at - ghosts.begin())] = std::move(patch);
+    patches[static_cast<std::size_t>(at - ghosts.begin())] = {layer.left, layer.top, std::move(layer.image)};
   }
   return patches;
 }

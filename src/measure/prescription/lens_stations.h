@@ -20,8 +20,7 @@ struct LensStations {
   double full_pitch_mm = 0;   // of the pictures as they came
   double source_radius_px = 0;  // of the light's image
   double source_radius_rad = 0;
-  // The variance, along x and along y, by which the camera spreads red and blue light more than a pixel does.
-  double mosaic_spread_px2 = 0;
+  bool is_mosaic = false;  // red and blue are interpolated
   Spectrum spectrum = IlluminantD65{};
 };
 
@@ -43,11 +42,7 @@ struct Patch {
   Image image;
 };
 
-// A patch whose red and blue are spread by this variance along x and along y; it has a pixel more on each side.
-[[nodiscard]] Patch spread_red_and_blue(const Patch& patch, double variance_px2);
-
-// A picture for each of these ghosts as the camera sees it at a station, in their order, and one of all others,
-// relative to the light.
+// A picture for each of these ghosts at a station, in their order, and one of all others, relative to the light.
 [[nodiscard]] Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size_t k,
                                                        const LensState& lens, const Frame& frame,
                                                        const std::vector<Ghost>& ghosts, const Context& context);

@@ -226,7 +226,7 @@ Result<MeasuredFigures> measured_figures(const DrawnSweep& drawn, Vec2 centre_px
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(kFigures * ghosts, kFigures * ghosts);
     Eigen::VectorXd b = Eigen::VectorXd::Zero(kFigures * ghosts);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (c != kGreen && drawn.stations->mosaic_spread_px2 > 0.0) continue;
+      if (c != kGreen && drawn.stations->is_mosaic) continue;
       const ChannelMatrix of = figure_equations(station.matrix[c], levels[c], ghosts);
       a += of.a;
       b += of.b;

@@ -27,7 +27,7 @@ GhostFigure figure_of(const GhostMeter& meter, const Ghost& ghost, const LightSo
 // speed, which the outermost station where the ghost is says best.
 std::vector<double> added_px2(const LensStations& stations, Vec2 centre_px, const SweepFigures& figures,
                               std::size_t ghosts) {
-  std::vector<double> added(ghosts, 1.0 + 12.0 * stations.mosaic_spread_px2);
+  std::vector<double> added(ghosts, 1.0);
   for (std::size_t g = 0; g < ghosts; ++g) {
     double farthest_px = 0.0, speed = 0.0;
     for (std::size_t k = 0; k < stations.pictures.lights_px.size(); ++k) {
