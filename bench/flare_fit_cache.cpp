@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <random>
 #include <span>
 #include <string>
 
@@ -17,9 +18,15 @@ namespace fs = std::filesystem;
 constexpr double kPartOfField = 0.95;  // of the largest angle at which the light is in the picture
 constexpr double kRadians = 0.017453292519943295;
 
+// Another program that shares the folder sees a whole file or none.
 void write_numbers(const fs::path& file, std::span<const float> numbers) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size_bytes()));
+  const fs::path whole = file.string() + "." + std::to_string(std::random_device{}());
+  {
+    std::ofstream out(whole, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(numbers.data()), static_cast<std::streamsize>(numbers.size_bytes()));
+  }
+  std::error_code error;
+  fs::rename(whole, file, error);
 }
 
 // Fills the numbers from a file; false if it does not hold exactly as many.

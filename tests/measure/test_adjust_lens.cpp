@@ -51,7 +51,7 @@ TEST_CASE("lens numbers: a body is tilted as a file's group is, and gaps move wh
   CHECK(state.stop_radius_mm == doctest::Approx(1.02 * adjustable.nominal.stop_radius_mm));
 }
 
-TEST_CASE("adjust lens: a tilt of 0.1 degrees and an air space are found, the focus roughly [slow]") {
+TEST_CASE("adjust lens: a tilt of 0.1 degrees and an air space and a focus shift are found [slow]") {
   const Prescription believed = *find_lens("tessar");
   const AdjustableLens planted = *adjustable_lens(believed, kStopped, {});
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(planted.numbers.size()));
@@ -64,7 +64,7 @@ TEST_CASE("adjust lens: a tilt of 0.1 degrees and an air space are found, the fo
   const LensCapture capture = capture_lens(truth, 320, 5);
   AdjustOptions options;
   options.max_ghosts = 10;
-  options.max_iterations = 4;
+  options.max_iterations = 5;
   // Coatings first: with wrong ones, ghosts have wrong mean wavelengths in each channel, and so wrong sizes.
   CoatingFitOptions coating_options;
   coating_options.max_rounds = 2;
@@ -73,15 +73,28 @@ TEST_CASE("adjust lens: a tilt of 0.1 degrees and an air space are found, the fo
   const auto adjusted = adjust_lens(capture.photographs(coated->lens, kStopped), options);
   REQUIRE_MESSAGE(adjusted.has_value(), adjusted.error().to_string());
   for (const LearntNumber& n : adjusted->numbers) MESSAGE(learnt_name(n), ": ", n.value, " +- ", n.error, n.determined);
-  const auto& tilt = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::TiltY, 3))];
-  CHECK(std::abs(deg_from_rad(tilt.value) - 0.1) < 0.02);
-  CHECK(tilt.determined);
+  // Five stations hardly tell a tilt of all elements together from a shift of the axis: each tilt is within its
+  // standard error, and their differences from the mean, of which one element was planted, within 0.02 degrees.
+  double mean = 0.0, planted_mean = 0.0;
+  for (std::size_t k = 0; k < adjusted->numbers.size(); ++k) {
+    if (adjusted->numbers[k].kind != LearntKind::TiltY) continue;
+    mean += adjusted->numbers[k].value / 3.0;
+    planted_mean += values[static_cast<Eigen::Index>(k)] / 3.0;
+  }
+  for (std::size_t k = 0; k < adjusted->numbers.size(); ++k) {
+    const LearntNumber& number = adjusted->numbers[k];
+    CHECK(std::abs(number.value - values[static_cast<Eigen::Index>(k)]) < 2.5 * number.error);
+    if (number.kind != LearntKind::TiltY) continue;
+    const double off = (number.value - mean) - (values[static_cast<Eigen::Index>(k)] - planted_mean);
+    CHECK(std::abs(deg_from_rad(off)) < 0.02);
+  }
+  CHECK(std::ranges::any_of(adjusted->warnings, [](const std::string& w) {
+    return w.find("tilts about y are") != std::string::npos && w.find("surfaces 3-4 +0.") != std::string::npos;
+  }));
   const auto& gap = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::Gap))];
   CHECK(std::abs(gap.value - 0.1) < 0.03);
   const auto& focus = adjusted->numbers[static_cast<std::size_t>(index_of(adjusted->numbers, LearntKind::Focus))];
-  // The sensor's distance and the stop's radius act nearly alike on sizes: 0.24 mm and 0.3 per cent off, more than
-  // their standard errors.
-  CHECK(std::abs(focus.value - 0.2) < 0.3);
+  CHECK(std::abs(focus.value - 0.2) < 0.1);
   CHECK(adjusted->rms_after_px < 0.5 * adjusted->rms_before_px);
   CHECK(configure_lens(adjusted->lens, kStopped).has_value());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fit's derivatives against central differences, and a planted flare found again from a start beside it.
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -170,6 +171,32 @@ TEST_CASE("flare problem: a ghost without light in the pictures stays within its
     const double moved = (found.flare.ghosts[0].centre.coefficients[0] - start.ghosts[0].centre.coefficients[0]) * s;
     CHECK(std::abs(moved) <= 0.2 * path + 0.5 * radius + 1e-9);  // as docs/physics/measured-flare.md has it
   }
+}
+
+TEST_CASE("least squares: steps that the cost's noise hides are taken, and steps that raise it by more are not") {
+  // A parabola with noise that changes with the parameter, however little that changes.
+  const double noise = 0.3;
+  LeastSquaresProblem problem;
+  problem.equations = [&](const Eigen::VectorXd& at) {
+    const double off = at[0] - 2.0;
+    return NormalEquations{10.0 + 0.5 * off * off + noise * std::sin(1e6 * at[0]), Eigen::VectorXd::Constant(1, off),
+                           Eigen::MatrixXd::Identity(1, 1)};
+  };
+  problem.cost = [&](const Eigen::VectorXd& at) { return problem.equations(at).cost; };
+  // Beside the solution by as much as the cost does not show, at a place where the noise happens to be lowest.
+  const double lowest = 1.5 + (1.5 * std::numbers::pi - std::fmod(1.5e6, 2.0 * std::numbers::pi)) * 1e-6;
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(1, lowest);
+  const LeastSquaresResult stuck = least_squares(problem, start, {30, 1e-4});
+  CHECK(std::abs(stuck.parameters[0] - 2.0) > 0.1);
+  const LeastSquaresResult found = least_squares(problem, start, {30, 1e-4, 2.0 * noise});
+  CHECK(std::abs(found.parameters[0] - 2.0) < 0.01);
+  CHECK(found.converged);
+  CHECK(found.iterations < 10);
+  problem.equations = [](const Eigen::VectorXd& at) {  // a gradient that is wrong: the cost rises along every step
+    return NormalEquations{1.0 + 5.0 * std::abs(at[0]), Eigen::VectorXd::Constant(1, at[0] >= 0.0 ? -1.0 : 1.0),
+                           Eigen::MatrixXd::Identity(1, 1)};
+  };
+  CHECK(std::abs(least_squares(problem, Eigen::VectorXd::Zero(1), {30, 1e-4, 0.1}).parameters[0]) < 0.2);
 }
 
 TEST_CASE("flare problem: the same bits for any number of threads") {

@@ -65,7 +65,8 @@ LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::Vect
     const double predicted = -(equations.gradient.dot(step) + 0.5 * step.dot(equations.hessian * step));
     NormalEquations trial = problem.equations(next);
     const double decrease = equations.cost - trial.cost;
-    if (!(decrease > 0.0) || !std::isfinite(trial.cost)) {
+    const bool may_gain = predicted > 0.0 && predicted < 2.0 * settings.cost_noise;
+    if (!(decrease > (may_gain ? -settings.cost_noise : 0.0)) || !std::isfinite(trial.cost)) {
       if (predicted <= settings.min_relative_decrease * equations.cost) {
         result.converged = true;
         break;
@@ -75,8 +76,8 @@ LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::Vect
       continue;
     }
     result.parameters = next;
-    const double relative = decrease / std::max(equations.cost, 1e-300);
-    const double gain = predicted > 0.0 ? decrease / predicted : 1.0;
+    const double relative = (may_gain ? predicted : decrease) / std::max(equations.cost, 1e-300);
+    const double gain = predicted > 0.0 && !may_gain ? decrease / predicted : 1.0;
     damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gain - 1.0, 3));
     growth = 2.0;
     equations = std::move(trial);

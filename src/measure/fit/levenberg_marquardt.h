@@ -27,6 +27,9 @@ struct LeastSquaresProblem {
 struct LeastSquaresSettings {
   int max_iterations = 50;
   double min_relative_decrease = 1e-9;  // of the cost in one step, below which it has converged
+  // By how much the cost changes where the parameters do not. Whether a step that is predicted to gain less than twice
+  // that has gained cannot be seen: it is taken unless the cost rises by more than the noise, and counts as predicted.
+  double cost_noise = 0;
 };
 
 struct LeastSquaresResult {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
+#include "base/units.h"
 #include "contrejour/expert/learn_lens.h"
 #include "contrejour/expert/trace.h"
 #include "measure/fit/levenberg_marquardt.h"
@@ -21,8 +22,12 @@ constexpr double kLeastCentreError_px = 0.05;  // of the light's image on the ax
 constexpr double kLeastSpanError_px = 0.1;     // of half the distance of two images
 constexpr double kSpan = 0.7;                  // of the largest angle: where that distance is compared
 constexpr double kPriorDominates = 0.7;  // of the tolerance: a standard error above this part of it says little
+constexpr double kTogether = 0.7;  // relative tilts are noted if their errors are below this part of the tilts' own
 constexpr double kMostTolerances = 6.0;  // a number's bounds
 constexpr double kSettledCost = 1e-3;
+// How the noise of drawings is found: by drawing the lens again after changes of this part of each prior.
+constexpr int kNoiseDrawings = 3;
+constexpr double kNoiseStep = 1e-3;
 
 // One resolution.
 struct PyramidLevel {
@@ -140,8 +145,42 @@ NormalEquations equations_of(const MeasuredFigures& figures, const PyramidLevel&
   return equations;
 }
 
-// Levenberg-Marquardt in one resolution. A lens that cannot be, with surfaces that cross, has an infinite cost.
-Result<LeastSquaresResult> fit_level(Adjustment& adjustment, PyramidLevel& level, const Context& context) {
+// What drawings of nearly the same lens differ by.
+struct DrawingNoise {
+  double cost = 0;  // RMS
+  Eigen::MatrixXd covariance;  // of the unknowns that fit best
+};
+
+// A renderer's errors change with the lens, however little that changes.
+DrawingNoise drawing_noise(const LeastSquaresProblem& problem, const Eigen::VectorXd& at,
+                           const Eigen::VectorXd& prior) {
+  const NormalEquations here = problem.equations(at);
+  const Eigen::LDLT<Eigen::MatrixXd> solver(here.hessian);
+  DrawingNoise noise{0.0, Eigen::MatrixXd::Zero(at.size(), at.size())};
+  for (int k = 0; k < kNoiseDrawings; ++k) {
+    Eigen::VectorXd step = kNoiseStep * prior;
+    for (Eigen::Index n = 0; n < step.size(); ++n)
+      if (((n + k) * (k + 1)) % 3 == 0) step[n] = -step[n];
+    const NormalEquations there = problem.equations(at + step);
+    if (!std::isfinite(there.cost)) continue;  // surfaces touch, or the caller has cancelled
+    const Eigen::VectorXd change = here.hessian * step;
+    noise.cost += std::pow(there.cost - here.cost - step.dot(here.gradient + 0.5 * change), 2) / kNoiseDrawings;
+    // Both drawings err.
+    const Eigen::VectorXd moved = solver.solve(there.gradient - here.gradient - change);
+    noise.covariance += moved * moved.transpose() / (2.0 * kNoiseDrawings);
+  }
+  noise.cost = std::sqrt(noise.cost);
+  return noise;
+}
+
+struct LevelResult {
+  LeastSquaresResult fit;
+  DrawingNoise noise;  // of the finest resolution
+};
+
+// Levenberg-Marquardt in one resolution. A lens that cannot be, with surfaces that cross, has an infinite cost. In the
+// finest one, steps go on until they are predicted to gain nothing, though the noise of drawings hides what each gains.
+Result<LevelResult> fit_level(Adjustment& adjustment, PyramidLevel& level, bool is_finest, const Context& context) {
   auto derivatives = figure_derivatives(level.stations, adjustment.lens, adjustment.unknowns, level.ghosts, context);
   if (!derivatives) return tl::unexpected(derivatives.error());
   level.derivatives = std::move(*derivatives);
@@ -163,11 +202,15 @@ Result<LeastSquaresResult> fit_level(Adjustment& adjustment, PyramidLevel& level
   problem.cost = [&](const Eigen::VectorXd& unknowns) { return problem.equations(unknowns).cost; };
   problem.lower = -kMostTolerances * adjustment.prior;
   problem.upper = kMostTolerances * adjustment.prior;
-  LeastSquaresResult result =
-      least_squares(problem, adjustment.unknowns, {adjustment.options.max_iterations, kSettledCost});
+  const int most = adjustment.options.max_iterations;
+  LevelResult result{least_squares(problem, adjustment.unknowns, {most, kSettledCost}), {}};
+  if (is_finest && !adjustment.error && std::isfinite(result.fit.cost)) {
+    result.noise = drawing_noise(problem, result.fit.parameters, adjustment.prior);
+    result.fit = least_squares(problem, result.fit.parameters, {most, kSettledCost, result.noise.cost});
+  }
   if (adjustment.error) return tl::unexpected(*adjustment.error);
-  if (!std::isfinite(result.cost)) return invalid_argument("the lens as its file has it cannot be drawn");
-  adjustment.unknowns = result.parameters;
+  if (!std::isfinite(result.fit.cost)) return invalid_argument("the lens as its file has it cannot be drawn");
+  adjustment.unknowns = result.fit.parameters;
   return result;
 }
 
@@ -186,17 +229,55 @@ std::vector<int> widths_of(int width) {
   return widths;
 }
 
-// Standard errors; residuals that are larger than expected count, too.
-Eigen::VectorXd errors_of(const LeastSquaresResult& result, const Eigen::VectorXd& prior, double figures) {
+// Residuals that are larger than expected count, too, and the noise of drawings.
+Eigen::MatrixXd covariance_of(const LevelResult& result, const Eigen::VectorXd& prior, double figures) {
   const Eigen::VectorXd inverse = prior.cwiseAbs2().cwiseInverse();
-  const double scale = std::max(2.0 * result.cost / std::max(figures, 1.0), 1.0);
-  Eigen::MatrixXd hessian = (result.hessian - Eigen::MatrixXd(inverse.asDiagonal())) / scale;
+  const double scale = std::max(2.0 * result.fit.cost / std::max(figures, 1.0), 1.0);
+  Eigen::MatrixXd hessian = (result.fit.hessian - Eigen::MatrixXd(inverse.asDiagonal())) / scale;
   hessian += inverse.asDiagonal();
-  const Eigen::MatrixXd covariance = hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
-  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::MatrixXd covariance = hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+  covariance += result.noise.covariance;
+  return covariance;
 }
 
-void add_numbers(const Adjustment& adjustment, const Eigen::VectorXd& errors, AdjustedLens& adjusted) {
+std::string tilted_body(const LearntNumber& tilt) {
+  return tilt.first == tilt.last ? fmt::format("surface {}", tilt.first)
+                                 : fmt::format("surfaces {}-{}", tilt.first, tilt.last);
+}
+
+// Turning all elements together looks like a shift of the axis, so that each tilt may be uncertain where its difference
+// from their mean is not: a note with these differences.
+void note_relative_tilts(const std::vector<LearntNumber>& numbers, const Eigen::MatrixXd& covariance, LearntKind kind,
+                         AdjustedLens& adjusted) {
+  Eigen::VectorXd is_tilt = Eigen::VectorXd::Zero(covariance.rows()), values = is_tilt;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    is_tilt[at] = numbers[k].kind == kind ? 1.0 : 0.0;
+    values[at] = numbers[k].value;
+  }
+  const double count = is_tilt.sum();
+  if (count < 2.0) return;
+  std::string list;
+  double least_error = std::numeric_limits<double>::infinity(), most_relative = 0.0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (numbers[k].kind != kind) continue;
+    Eigen::VectorXd difference = -is_tilt / count;
+    difference[static_cast<Eigen::Index>(k)] += 1.0;
+    const double error = std::sqrt(std::max(difference.dot(covariance * difference), 0.0));
+    list += fmt::format("{}{} {:+.3f} +- {:.3f}", list.empty() ? "" : ", ", tilted_body(numbers[k]),
+                        deg_from_rad(difference.dot(values)), deg_from_rad(error));
+    least_error = std::min(least_error, numbers[k].error);
+    most_relative = std::max(most_relative, error);
+  }
+  if (!(most_relative < kTogether * least_error)) return;
+  adjusted.warnings.push_back(
+      fmt::format("the pictures hardly tell a tilt of all elements together from a shift of the axis; over the mean of "
+                  "all, the tilts about {} are, in degrees: {}",
+                  kind == LearntKind::TiltX ? "x" : "y", list));
+}
+
+void add_numbers(const Adjustment& adjustment, const Eigen::MatrixXd& covariance, AdjustedLens& adjusted) {
+  const Eigen::VectorXd errors = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   adjusted.numbers = adjustment.lens.numbers;
   std::string open;
   for (std::size_t k = 0; k < adjusted.numbers.size(); ++k) {
@@ -206,6 +287,8 @@ void add_numbers(const Adjustment& adjustment, const Eigen::VectorXd& errors, Ad
     number.determined = number.error < kPriorDominates * number.tolerance;
     if (!number.determined) open += (open.empty() ? "" : "; ") + learnt_name(number);
   }
+  for (const LearntKind kind : {LearntKind::TiltX, LearntKind::TiltY})
+    note_relative_tilts(adjusted.numbers, covariance, kind, adjusted);
   if (!open.empty()) adjusted.warnings.push_back("the pictures say little beyond their tolerances about the " + open);
 }
 
@@ -258,7 +341,7 @@ Result<AdjustedLens> adjust_lens(const LensPhotographs& photographs, const Adjus
     if (!level) return tl::unexpected(level.error());
     const double full_pitch_mm = level->stations.full_pitch_mm;
     set_centre_scale(adjustment, *level, pitch_mm);
-    const auto result = fit_level(adjustment, *level, context);
+    const auto result = fit_level(adjustment, *level, width == widths.back(), context);
     if (!result) return tl::unexpected(result.error());
     if (width != widths.back()) continue;
     const double to_full = level->stations.pixel_pitch_mm / full_pitch_mm;
@@ -270,8 +353,8 @@ Result<AdjustedLens> adjust_lens(const LensPhotographs& photographs, const Adjus
     adjusted.centre_px = centre_of(level->stations, adjustment.unknowns) * to_full;
     adjusted.ghosts = level->ghosts;
     double figures = 0.0;
-    for (const StationFigures& of : after->by_station) figures += static_cast<double>(of.off.size());
-    add_numbers(adjustment, errors_of(*result, adjustment.prior, figures), adjusted);
+    for (const StationFigures& of : after->by_station) figures += of.count;
+    add_numbers(adjustment, covariance_of(*result, adjustment.prior, figures), adjusted);
   }
   adjusted.lens = adjustment.lens.prescription(adjustment.unknowns.head(count));
   write_stop(adjustment, adjusted);

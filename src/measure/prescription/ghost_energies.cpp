@@ -22,8 +22,7 @@ Result<StationMatrix> energies_at(const DrawnSweep& drawn, std::size_t k, const 
   const LensStations& stations = *drawn.stations;
   const FitStation& station = stations.pictures.stations[k];
   const Frame frame = frame_of(stations, stations.centre_px);
-  const auto patches =
-      ghost_patches(drawn.lens, light_of(stations, k, drawn.lens, frame), frame, drawn.ghosts, context);
+  const auto patches = ghost_patches(stations, k, drawn.lens, frame, drawn.ghosts, context);
   if (!patches) return tl::unexpected(patches.error());
   const HaloColumns halo(stations.pictures.lights_px[k], stations.centre_px, masked_px(stations), frame.width,
                          frame.height);

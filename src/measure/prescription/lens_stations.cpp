@@ -18,18 +18,21 @@ constexpr double kDrawingError = 0.001;
 constexpr double kMaskedRadii = 2.5;  // of the light's image, beyond which its blurred edge is dim
 constexpr double kMaskedEdge_px = 2.0;
 
-// A sweep whose pictures say how large they are.
+// A sweep whose pictures say how large they are, and whether they come from a mosaic.
 struct SizedSweep {
   FlareSweep sweep;
+  std::shared_ptr<std::atomic<bool>> mosaic = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<std::atomic<int>> width = std::make_shared<std::atomic<int>>(0);
   std::shared_ptr<std::atomic<int>> height = std::make_shared<std::atomic<int>>(0);
 };
 
 SizedSweep sized(const FlareSweep& sweep) {
   SizedSweep all{sweep};
-  all.sweep.picture = [inner = sweep.picture, width = all.width, height = all.height](std::size_t k) {
+  all.sweep.picture = [inner = sweep.picture, width = all.width, height = all.height,
+                       mosaic = all.mosaic](std::size_t k) {
     Result<CapturedImage> picture = inner(k);
     if (picture) {
+      if (picture->pattern) mosaic->store(true);
       width->store(picture->rate.width);
       height->store(picture->rate.height);
     }
@@ -60,6 +63,7 @@ Result<LensStations> lens_stations(const LensPhotographs& photographs, const Len
   stations.full_pitch_mm = pitch_mm;
   stations.source_radius_px = reduced.focal_length_px * std::tan(photographs.source_radius_rad);
   stations.source_radius_rad = photographs.source_radius_rad;
+  stations.is_mosaic = *with_size.mosaic;
   stations.spectrum = photographs.spectrum;
   return stations;
 }
@@ -88,8 +92,9 @@ Light light_of(const LensStations& stations, std::size_t k, const LensState& len
   return light;
 }
 
-Result<std::vector<Patch>> ghost_patches(const LensState& lens, const Light& light, const Frame& frame,
-                                         const std::vector<Ghost>& ghosts, const Context& context) {
+Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size_t k, const LensState& lens,
+                                         const Frame& frame, const std::vector<Ghost>& ghosts, const Context& context) {
+  const Light light = light_of(stations, k, lens, frame);
   FrameSettings settings;
   settings.frame = frame;
   LayerOptions options;

@@ -20,6 +20,7 @@ struct LensStations {
   double full_pitch_mm = 0;   // of the pictures as they came
   double source_radius_px = 0;  // of the light's image
   double source_radius_rad = 0;
+  bool is_mosaic = false;  // red and blue are interpolated
   Spectrum spectrum = IlluminantD65{};
 };
 
@@ -41,8 +42,9 @@ struct Patch {
   Image image;
 };
 
-// A picture for each of these ghosts, in their order, and one of all others, relative to the light.
-[[nodiscard]] Result<std::vector<Patch>> ghost_patches(const LensState& lens, const Light& light, const Frame& frame,
+// A picture for each of these ghosts at a station, in their order, and one of all others, relative to the light.
+[[nodiscard]] Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size_t k,
+                                                       const LensState& lens, const Frame& frame,
                                                        const std::vector<Ghost>& ghosts, const Context& context);
 
 }  // namespace contrejour::inline internal

@@ -19,6 +19,7 @@ namespace contrejour::inline internal {
 struct StationFigures {
   Eigen::VectorXd off;
   Eigen::MatrixXd weight;   // inverse covariance
+  double count = 0;  // of the figures that the picture shows: one of which it says half counts a half
 };
 
 struct MeasuredFigures {

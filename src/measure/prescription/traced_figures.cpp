@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kFigures_nm = 550.0;  // where channels together are brightest
 constexpr double kCentreStep_px = 0.5;
-constexpr double kLeastSize_px = 0.5;  // of a ghost whose size counts
+// The square of an even box's side, with the same variance as a disc, over that of the disc's diameter.
+constexpr double kBoxOfDisc = 12.0 / 16.0;
 
 GhostFigure figure_of(const GhostMeter& meter, const Ghost& ghost, const LightSource& light, const Frame& frame) {
   const GhostMeasure measure = meter.measure(ghost, light);
@@ -21,8 +22,36 @@ GhostFigure figure_of(const GhostMeter& meter, const Ghost& ghost, const LightSo
   return figure;
 }
 
-void set_column(const SweepFigures& up, const SweepFigures& down, double step, std::size_t ghosts, Eigen::Index column,
-                std::vector<Eigen::MatrixXd>& by_station) {
+// What the light's size and the pixels add to the square of a ghost's side in pictures. Rays of a point of light have
+// neither, and ghosts near focus are smaller than both. The light's image in a ghost is its own image times the ghost's
+// speed, which the outermost station where the ghost is says best.
+std::vector<double> added_px2(const LensStations& stations, Vec2 centre_px, const SweepFigures& figures,
+                              std::size_t ghosts) {
+  std::vector<double> added(ghosts, 1.0);
+  for (std::size_t g = 0; g < ghosts; ++g) {
+    double farthest_px = 0.0, speed = 0.0;
+    for (std::size_t k = 0; k < stations.pictures.lights_px.size(); ++k) {
+      const GhostFigure& figure = figures[k * ghosts + g];
+      const double distance_px = length(stations.pictures.lights_px[k] - centre_px);
+      if (!figure.is_there || !(distance_px > farthest_px)) continue;
+      farthest_px = distance_px;
+      speed = length(figure.middle_px - centre_px) / distance_px;
+    }
+    const double diameter_px = 2.0 * stations.source_radius_px * speed;
+    added[g] += kBoxOfDisc * diameter_px * diameter_px;
+  }
+  return added;
+}
+
+// The relative change of a side in pictures, of which the square is that of the rays and what is added to it.
+double relative_change(double up_px, double down_px, double step, double added) {
+  const double size = 0.5 * (up_px + down_px), by_step = (up_px - down_px) / (2.0 * step);
+  return kBoxOfDisc * size * by_step / (kBoxOfDisc * size * size + added);
+}
+
+void set_column(const SweepFigures& up, const SweepFigures& down, double step, const std::vector<double>& added,
+                Eigen::Index column, std::vector<Eigen::MatrixXd>& by_station) {
+  const std::size_t ghosts = added.size();
   for (std::size_t k = 0; k < up.size(); ++k) {
     if (!up[k].is_there || !down[k].is_there) continue;
     Eigen::MatrixXd& matrix = by_station[k / ghosts];
@@ -30,9 +59,8 @@ void set_column(const SweepFigures& up, const SweepFigures& down, double step, s
     const Vec2 moved = (up[k].middle_px - down[k].middle_px) * (0.5 / step);
     matrix(row, column) = moved.x;
     matrix(row + 1, column) = moved.y;
-    const Vec2 size = (up[k].size_px + down[k].size_px) * 0.5, grown = up[k].size_px - down[k].size_px;
-    if (size.x > kLeastSize_px) matrix(row + 2, column) = grown.x / (2.0 * step * size.x);
-    if (size.y > kLeastSize_px) matrix(row + 3, column) = grown.y / (2.0 * step * size.y);
+    matrix(row + 2, column) = relative_change(up[k].size_px.x, down[k].size_px.x, step, added[k % ghosts]);
+    matrix(row + 3, column) = relative_change(up[k].size_px.y, down[k].size_px.y, step, added[k % ghosts]);
   }
 }
 
@@ -67,6 +95,12 @@ Result<std::vector<Eigen::MatrixXd>> figure_derivatives(const LensStations& stat
   const auto rows = kFigures * static_cast<Eigen::Index>(ghosts.size());
   std::vector<Eigen::MatrixXd> by_station(stations.pictures.stations.size(),
                                           Eigen::MatrixXd::Zero(rows, unknowns.size()));
+  const auto lens_now = lens_of(lens, unknowns);
+  if (!lens_now) return tl::unexpected(lens_now.error());
+  const Vec2 centre_px = centre_of(stations, unknowns);
+  const auto now = traced_figures(stations, *lens_now, centre_px, ghosts, context);
+  if (!now) return tl::unexpected(now.error());
+  const std::vector<double> added = added_px2(stations, centre_px, *now, ghosts.size());
   for (Eigen::Index n = 0; n < unknowns.size(); ++n) {
     const bool is_centre = n >= unknowns.size() - 2;
     const double step = is_centre ? kCentreStep_px : difference_step(lens.numbers[static_cast<std::size_t>(n)]);
@@ -80,7 +114,7 @@ Result<std::vector<Eigen::MatrixXd>> figure_derivatives(const LensStations& stat
       if (!figures) return tl::unexpected(figures.error());
       sides[side] = std::move(*figures);
     }
-    set_column(sides[0], sides[1], step, ghosts.size(), n, by_station);
+    set_column(sides[0], sides[1], step, added, n, by_station);
   }
   return by_station;
 }
