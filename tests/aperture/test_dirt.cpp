@@ -9,6 +9,7 @@
 
 #include "base/scalar.h"
 #include "contrejour/expert/dirt.h"
+#include "support/approx.h"
 #include "support/inside_polygon.h"
 
 using namespace contrejour;
@@ -68,10 +69,10 @@ TEST_CASE("dust has the density, the sizes and the even spread that were asked f
     const auto diameter = [](const DirtStroke& s) {
       return std::sqrt(s.width_mm * s.width_mm + 4.0 / kPi * s.width_mm * s.length_mm);
     };
-    CHECK(median(of_all(dust, diameter)) == doctest::Approx(0.08).epsilon(0.03));
+    CHECK(median(of_all(dust, diameter)) == test::approx(0.08).epsilon(0.03));
     double squares = 0.0;
     for (const double d : of_all(dust, diameter)) squares += std::pow(std::log(d / 0.08), 2.0);
-    CHECK(std::sqrt(squares / count) == doctest::Approx(Dirt::kSizeSpread).epsilon(0.05));
+    CHECK(std::sqrt(squares / count) == test::approx(Dirt::kSizeSpread).epsilon(0.05));
 
     // 100 squares of 10 mm: the variance of a Poisson count is its mean.
     std::vector<double> bins(100);
@@ -96,10 +97,8 @@ TEST_CASE("scratches have the density, lengths, widths, directions and bends tha
   const auto scratches = in_square(dirt);
   const auto count = static_cast<double>(scratches.size());
   CHECK(std::abs(count - 2000.0) < 4.0 * std::sqrt(2000.0));
-  CHECK(median(of_all(scratches, [](const DirtStroke& s) { return s.length_mm; })) ==
-        doctest::Approx(6.0).epsilon(0.05));
-  CHECK(median(of_all(scratches, [](const DirtStroke& s) { return s.width_mm; })) ==
-        doctest::Approx(0.02).epsilon(0.05));
+  CHECK(median(of_all(scratches, [](const DirtStroke& s) { return s.length_mm; })) == test::approx(6.0).epsilon(0.05));
+  CHECK(median(of_all(scratches, [](const DirtStroke& s) { return s.width_mm; })) == test::approx(0.02).epsilon(0.05));
   double sum = 0.0, squares = 0.0, bends = 0.0;
   for (const DirtStroke& s : scratches) {
     CHECK(std::abs(s.angle_rad - 0.7) <= 0.3);
@@ -109,7 +108,7 @@ TEST_CASE("scratches have the density, lengths, widths, directions and bends tha
     bends += s.bend_rad;
   }
   CHECK(std::abs(sum / count) < 0.02);
-  CHECK(std::sqrt(squares / count) == doctest::Approx(0.3 / std::sqrt(3.0)).epsilon(0.05));  // evenly spread
+  CHECK(std::sqrt(squares / count) == test::approx(0.3 / std::sqrt(3.0)).epsilon(0.05));  // evenly spread
   CHECK(std::abs(bends / count) < 0.01);
 }
 
@@ -140,11 +139,11 @@ TEST_CASE("the same seed gives the same dirt everywhere") {
   dirt.seed = 7;
   const auto dust = dirt_within(dirt, {0.0, 0.0}, {10.0, 10.0});
   REQUIRE(dust.size() == 13);
-  CHECK(dust[0].middle_mm.x == doctest::Approx(4.49644170298056).epsilon(1e-13));
-  CHECK(dust[0].middle_mm.y == doctest::Approx(1.43719714874725).epsilon(1e-13));
-  CHECK(dust[0].width_mm == doctest::Approx(0.106727856441991).epsilon(1e-13));
-  CHECK(dust[1].middle_mm.x == doctest::Approx(9.06067403210429).epsilon(1e-13));
-  CHECK(dust[1].angle_rad == doctest::Approx(1.1783281195842).epsilon(1e-12));
+  CHECK(dust[0].middle_mm.x == test::approx(4.49644170298056).epsilon(1e-13));
+  CHECK(dust[0].middle_mm.y == test::approx(1.43719714874725).epsilon(1e-13));
+  CHECK(dust[0].width_mm == test::approx(0.106727856441991).epsilon(1e-13));
+  CHECK(dust[1].middle_mm.x == test::approx(9.06067403210429).epsilon(1e-13));
+  CHECK(dust[1].angle_rad == test::approx(1.1783281195842).epsilon(1e-12));
 }
 
 TEST_CASE("dirt wanders smoothly and comes back after a turn") {
@@ -184,13 +183,13 @@ TEST_CASE("a stroke's outline and its distance are those of points about its lin
       CAPTURE(length_mm);
       const DirtStroke s{{0.3, -0.2}, 0.8, length_mm, 0.2, bend, 1.0};
       const auto outline = dirt_outline(s);
-      CHECK(area_of(outline) == doctest::Approx(length_mm * 0.2 + kPi * 0.01).epsilon(0.03));
+      CHECK(area_of(outline) == test::approx(length_mm * 0.2 + kPi * 0.01).epsilon(0.03));
       for (int i = 0; i < 200; ++i) {
         const Vec2 p = s.middle_mm + Vec2{3.0 * any(random) - 1.5, 3.0 * any(random) - 1.5};
         double nearest = std::numeric_limits<double>::infinity();
         for (int k = 0; k <= 2000; ++k) nearest = std::min(nearest, length(p - s.at(k / 2000.0 - 0.5)));
         const double expected = nearest - 0.1;
-        CHECK(s.distance_mm(p) == doctest::Approx(expected).epsilon(1e-3));
+        CHECK(s.distance_mm(p) == test::approx(expected).epsilon(1e-3));
         if (std::abs(expected) > 0.004) CHECK(test::inside_polygon(outline, p) == (expected < 0.0));
         CHECK((expected > 0.0 || length(p - s.middle_mm) <= s.outer_radius_mm()));
       }
@@ -206,7 +205,7 @@ TEST_CASE("a picture lies upright over the plane, clean beside it") {
   CHECK(picture->transmission({0.5, 0.5}) == 0.0);
   CHECK(picture->transmission({-0.5, -0.5}) == 1.0);
   CHECK(picture->transmission({0.5, -0.5}) == 0.5);
-  CHECK(picture->transmission({0.5, 0.0}) == doctest::Approx(0.25));
+  CHECK(picture->transmission({0.5, 0.0}) == test::approx(0.25));
   for (const Vec2 far : {Vec2{2.0, 0.0}, Vec2{0.0, -1e300}, Vec2{std::numeric_limits<double>::quiet_NaN(), 0.0}})
     CHECK(picture->transmission(far) == 1.0);
   CHECK_FALSE(DirtPicture::from_levels({}, 0, 0).has_value());

@@ -10,6 +10,7 @@
 #include "base/scalar.h"
 #include "contrejour/expert/iris.h"
 #include "ghosts/iris_shape.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -60,10 +61,10 @@ TEST_CASE("straight blades give the distances that renderers use") {
       const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
       float expected = 0.0F;
       shape.distances(&x, &y, 1, &expected);
-      CHECK(iris_distance(iris, p) == doctest::Approx(expected).epsilon(1e-5));
-      CHECK(opening.bound_distance(p) == doctest::Approx(expected).epsilon(1e-5));
+      CHECK(iris_distance(iris, p) == test::approx(expected).epsilon(1e-5));
+      CHECK(opening.bound_distance(p) == test::approx(expected).epsilon(1e-5));
       if (expected <= 0.0F)
-        CHECK(opening.distance(p) == doctest::Approx(expected).epsilon(1e-5));
+        CHECK(opening.distance(p) == test::approx(expected).epsilon(1e-5));
       else
         CHECK(opening.distance(p) >= expected - 1e-5);
     }
@@ -75,7 +76,7 @@ TEST_CASE("the opening's distance is Euclidean everywhere [slow]") {
     const IrisOpening opening(iris);
     for (int k = 0; k < 9; ++k) {
       const Vec2 p = polar(0.13 * k, 1.7 * k);
-      CHECK(opening.distance(p) == doctest::Approx(brute_distance(iris, p)).epsilon(1e-3));
+      CHECK(opening.distance(p) == test::approx(brute_distance(iris, p)).epsilon(1e-3));
     }
   }
 }
@@ -83,18 +84,18 @@ TEST_CASE("the opening's distance is Euclidean everywhere [slow]") {
 TEST_CASE("area and perimeter") {
   for (const Iris& iris : kIrises) {
     const IrisOpening opening(iris);
-    CHECK(opening.area() == doctest::Approx(counted_area(iris)).epsilon(2e-3));
-    CHECK(iris_area_fraction(iris) == doctest::Approx(opening.area() / kPi));
+    CHECK(opening.area() == test::approx(counted_area(iris)).epsilon(2e-3));
+    CHECK(iris_area_fraction(iris) == test::approx(opening.area() / kPi));
   }
-  CHECK(IrisOpening(Iris{6}).perimeter() == doctest::Approx(6.0));
-  CHECK(IrisOpening(Iris{}).perimeter() == doctest::Approx(2.0 * kPi));
+  CHECK(IrisOpening(Iris{6}).perimeter() == test::approx(6.0));
+  CHECK(IrisOpening(Iris{}).perimeter() == test::approx(2.0 * kPi));
 }
 
 TEST_CASE("edges of the circle's own curvature are the circle; blades far out are hidden") {
   for (const Iris& iris : {Iris{9, 0.2, 1.0}, Iris{6, 0.0, 0.0, 1.0 / std::cos(kPi / 6) + 1e-9}}) {
     const IrisOpening opening(iris);
     CHECK(opening.edges().size() == 1);
-    CHECK(opening.area() == doctest::Approx(kPi));
+    CHECK(opening.area() == test::approx(kPi));
   }
 }
 
@@ -106,7 +107,7 @@ TEST_CASE("an iris between open and closed shows rim and blades in turn") {
 TEST_CASE("asymmetric blades: seeded, the same every time, never beyond the rim") {
   const Iris a{7, 0.0, 0.2, 1.0, 0.1, 1}, b{7, 0.0, 0.2, 1.0, 0.1, 2};
   CHECK(IrisOpening(a).area() == IrisOpening(a).area());
-  CHECK(IrisOpening(a).area() != doctest::Approx(IrisOpening(b).area()).epsilon(1e-4));
+  CHECK(IrisOpening(a).area() != test::approx(IrisOpening(b).area()).epsilon(1e-4));
   for (int k = 0; k < 100; ++k) CHECK(iris_distance(a, polar(1.0, 0.1 * k)) >= -1e-12);
 }
 
@@ -115,8 +116,8 @@ TEST_CASE("another aperture cuts a lens-shaped opening") {
   const std::array<IrisBound, 1> cut{IrisBound{{}, 0.0, {1.0, 0.0}, 1.0}};
   const IrisOpening lens(Iris{}, cut);
   CHECK(lens.edges().size() == 2);
-  CHECK(lens.area() == doctest::Approx(2.0 * kPi / 3.0 - 0.5 * std::sqrt(3.0)));
-  CHECK(lens.distance({0.5, 0.0}) == doctest::Approx(-0.5));
+  CHECK(lens.area() == test::approx(2.0 * kPi / 3.0 - 0.5 * std::sqrt(3.0)));
+  CHECK(lens.distance({0.5, 0.0}) == test::approx(-0.5));
   const std::array<IrisBound, 1> away{IrisBound{{}, 0.0, {3.0, 0.0}, 1.0}};
   CHECK(IrisOpening(Iris{}, away).closed());
 }

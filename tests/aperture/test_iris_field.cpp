@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/scalar.h"
+#include "support/approx.h"
 #include "support/pictures.h"
 
 using namespace contrejour;
@@ -36,11 +37,10 @@ TEST_CASE("a white picture of any size is the round stop") {
   for (const int side : {1, 2, 7, 64, 127, 500}) {
     CAPTURE(side);
     const auto field = of_levels(std::vector<float>(static_cast<std::size_t>(side * side), 0.3F), side, side);
-    CHECK(field->area() / kPi == doctest::Approx(1.0).epsilon(2e-4));
+    CHECK(field->area() / kPi == test::approx(1.0).epsilon(2e-4));
     for (int k = 0; k < 200; ++k) {
       const Vec2 p = scattered(k);
-      if (length(p) > 0.9 && length(p) < 1.0)
-        CHECK(field->distance(p) == doctest::Approx(length(p) - 1.0).epsilon(1e-4));
+      if (length(p) > 0.9 && length(p) < 1.0) CHECK(field->distance(p) == test::approx(length(p) - 1.0).epsilon(1e-4));
       CHECK((field->distance(p) <= 0.0) == (length(p) <= 1.0));
     }
   }
@@ -49,16 +49,16 @@ TEST_CASE("a white picture of any size is the round stop") {
 TEST_CASE("right side up, and the longer side across the stop") {
   SUBCASE("the upper right quarter") {
     const auto field = drawn_field(200, [](Vec2 p) { return p.x > 0.0 && p.y > 0.0; });
-    CHECK(field->distance({0.4, 0.3}) == doctest::Approx(-0.3).epsilon(0.01));
+    CHECK(field->distance({0.4, 0.3}) == test::approx(-0.3).epsilon(0.01));
     for (const Vec2 p : {Vec2{-0.3, 0.4}, Vec2{0.3, -0.4}, Vec2{-0.3, -0.4}}) CHECK(field->distance(p) > 0.25);
-    CHECK(field->area() == doctest::Approx(kPi / 4.0).epsilon(0.01));
+    CHECK(field->area() == test::approx(kPi / 4.0).epsilon(0.01));
   }
   SUBCASE("a wide picture leaves a band") {
     const auto field = of_levels(std::vector<float>(4, 1.0F), 4, 1);
     const double expected = 2.0 * (0.25 * std::sqrt(1.0 - 0.0625) + std::asin(0.25));
-    CHECK(field->area() == doctest::Approx(expected).epsilon(2e-3));
-    CHECK(field->distance({0.0, 0.1}) == doctest::Approx(-0.15).epsilon(1e-3));
-    CHECK(field->distance({0.1, 0.5}) == doctest::Approx(0.25).epsilon(1e-3));
+    CHECK(field->area() == test::approx(expected).epsilon(2e-3));
+    CHECK(field->distance({0.0, 0.1}) == test::approx(-0.15).epsilon(1e-3));
+    CHECK(field->distance({0.1, 0.5}) == test::approx(0.25).epsilon(1e-3));
   }
 }
 
@@ -70,10 +70,10 @@ TEST_CASE("near edges distances are those of the shape drawn, its area that of c
     if (std::abs(expected) > 0.1 || length(p) > 1.0) continue;
     CHECK(std::abs(disc->distance(p) - expected) < 0.2 * 2.0 / disc->samples() + 1e-6);
   }
-  CHECK(disc->area() / (kPi * 0.25) == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(disc->area() / (kPi * 0.25) == test::approx(1.0).epsilon(1e-3));
   int inside = 0;
   for (int k = 0; k < 400000; ++k) inside += is_in_flower(scattered(k)) ? 1 : 0;
-  CHECK(flower_field()->area() / (2.2 * 2.2 * inside / 400000) == doctest::Approx(1.0).epsilon(3e-3));
+  CHECK(flower_field()->area() / (2.2 * 2.2 * inside / 400000) == test::approx(1.0).epsilon(3e-3));
 }
 
 TEST_CASE("the distance never changes faster than one walks") {
@@ -111,7 +111,7 @@ TEST_CASE("without details the same light passes") {
         error = std::max(error, std::abs(here - (field->distance(p) < 0.0 ? 1.0 : 0.0)));
     }
     CHECK(error == 0.0);
-    CHECK(light / field->area() == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(light / field->area() == test::approx(1.0).epsilon(0.01));
   }
 }
 
@@ -129,8 +129,8 @@ TEST_CASE("an iris of a picture turns with it") {
   iris.field = flower_field();
   const double drawn = iris_distance(iris, {0.3, 0.1});
   iris.rotation_rad = 0.5 * kPi;
-  CHECK(iris_distance(iris, {-0.1, 0.3}) == doctest::Approx(drawn));
-  CHECK(iris_area_fraction(iris) == doctest::Approx(iris.field->area() / kPi));
+  CHECK(iris_distance(iris, {-0.1, 0.3}) == test::approx(drawn));
+  CHECK(iris_area_fraction(iris) == test::approx(iris.field->area() / kPi));
 }
 
 TEST_CASE("smooth edges are no half-tones: such a picture lets all of the light pass or none") {
@@ -165,26 +165,25 @@ TEST_CASE("half-tones let their share of the light pass") {
       light += in_ring(p) ? tone(p) / highest : 0.0;
       if (from_edge < 2.0 * pixel || length(p) > 1.0 - pixel) continue;
       CHECK((field->distance(p) <= 0.0) == in_ring(p));
-      CHECK(field->transmittance(p) == doctest::Approx(in_ring(p) ? tone(p) / highest : 0.0).epsilon(2e-3));
+      CHECK(field->transmittance(p) == test::approx(in_ring(p) ? tone(p) / highest : 0.0).epsilon(2e-3));
       if (in_ring(p) && from_edge > 0.1 && length(p) < 0.9)  // quadratic: the square's mean by hand
-        CHECK(field->transmittance(p, 0.12) ==
-              doctest::Approx((tone(p) - 0.1 * 0.0144 / 12.0) / highest).epsilon(2e-3));
+        CHECK(field->transmittance(p, 0.12) == test::approx((tone(p) - 0.1 * 0.0144 / 12.0) / highest).epsilon(2e-3));
     }
-    CHECK(field->area() == doctest::Approx(light / area * kPi).epsilon(2e-3));
+    CHECK(field->area() == test::approx(light / area * kPi).epsilon(2e-3));
     Iris iris;
     iris.field = field;
     iris.rotation_rad = 0.5 * kPi;
     CHECK(iris_transmittance(iris, {0.1, 0.6}) == field->transmittance({0.6, -0.1}));
     CHECK(iris_transmittance(iris, {0.0, 0.1}) == 0.0);
-    CHECK(iris_area_fraction(iris) == doctest::Approx(field->area() / kPi));
+    CHECK(iris_area_fraction(iris) == test::approx(field->area() / kPi));
   }
 }
 
 TEST_CASE("a grey line is a half-tone, an even grey is none") {
   const auto line = drawn_field(200, [](Vec2 p) { return std::abs(p.x - 0.005) < 0.005 ? 0.5 : 1.0; });
   REQUIRE(line->has_half_tones());
-  CHECK(line->transmittance({0.005, 0.3}) == doctest::Approx(0.5));
-  CHECK(line->transmittance({0.1, 0.3}) == doctest::Approx(1.0));
+  CHECK(line->transmittance({0.005, 0.3}) == test::approx(0.5));
+  CHECK(line->transmittance({0.1, 0.3}) == test::approx(1.0));
   CHECK_FALSE(drawn_field(50, [](Vec2) { return 0.4; })->has_half_tones());
   CHECK(iris_transmittance(Iris{6}, {0.1, 0.2}) == 1.0);
   CHECK(iris_transmittance(Iris{6}, {0.9, 0.9}) == 0.0);

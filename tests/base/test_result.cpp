@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/units.h"
+#include "support/approx.h"
 
 namespace contrejour {
 namespace {
@@ -45,9 +46,9 @@ TEST_CASE("errors pass through a chain of steps untouched") {
 }
 
 TEST_CASE("degrees and radians are inverse and right at a quarter turn") {
-  CHECK(rad_from_deg(90.0) == doctest::Approx(1.5707963267948966).epsilon(1e-15));
-  CHECK(deg_from_rad(rad_from_deg(12.5)) == doctest::Approx(12.5).epsilon(1e-15));
-  CHECK(um_from_nm(587.5618) == doctest::Approx(0.5875618).epsilon(1e-15));
+  CHECK(rad_from_deg(90.0) == test::approx(1.5707963267948966).epsilon(1e-15));
+  CHECK(deg_from_rad(rad_from_deg(12.5)) == test::approx(12.5).epsilon(1e-15));
+  CHECK(um_from_nm(587.5618) == test::approx(0.5875618).epsilon(1e-15));
 }
 
 TEST_CASE("peak memory covers what was just used") {

@@ -5,6 +5,7 @@
 
 #include "c_interface/c_objects.h"
 #include "contrejour/expert/first_order.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::c_test;
@@ -82,7 +83,7 @@ TEST_CASE("C: lenses, their surfaces and figures are the library's") {
   REQUIRE(cj_lens_state_get_figures(objects.state, 0.0, &figures, &objects.error) == CJ_OK);
   const auto state = configure_lens(*prescription, {.f_number = 8.0});
   CHECK(figures.focal_length_mm == first_order(*state, state->design_wavelength_nm).focal_length_mm);
-  CHECK(figures.f_number == doctest::Approx(8.0).epsilon(1e-9));
+  CHECK(figures.f_number == test::approx(8.0).epsilon(1e-9));
   CHECK(std::isinf(figures.object_distance_mm));
 
   CHECK(cj_bundled_lens_count() == bundled_lenses().size());
@@ -118,7 +119,7 @@ TEST_CASE("C: ghosts and detected lights are those of the C++ functions") {
   REQUIRE(cj_light_list_count(lights) == 1);
   cj_detected_light light = CJ_INIT(cj_detected_light);
   REQUIRE(cj_light_list_get(lights, 0, &light, &objects.error) == CJ_OK);
-  CHECK(light.x_px == doctest::Approx(7.5));
+  CHECK(light.x_px == test::approx(7.5));
   CHECK(light.peak == 900.0);
   CHECK(cj_light_list_threshold(lights) == detect_lights(picture_in_cpp(pixels))->threshold);
   cj_light_list_destroy(lights);

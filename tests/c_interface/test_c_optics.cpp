@@ -16,6 +16,7 @@
 #include "contrejour/expert/trace.h"
 #include "contrejour/expert/write_lens.h"
 #include "contrejour_optics.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::c_test;
@@ -54,7 +55,7 @@ TEST_CASE("C: glasses by name, code and index; the table of the makers' names") 
     CHECK((n[0] > n[1] && n[1] > n[2]));
     cj_glass_info info = CJ_INIT(cj_glass_info);
     REQUIRE(cj_glass_get_info(glass, &info, &error) == CJ_OK);
-    CHECK(info.n_d == doctest::Approx(n[1]).epsilon(1e-9));
+    CHECK(info.n_d == test::approx(n[1]).epsilon(1e-9));
     CHECK(info.v_d > 20.0);
     double t[1] = {};
     CHECK(cj_glass_transmittances(glass, 10.0, wavelengths, 1, t, &error) == CJ_OK);
@@ -74,12 +75,12 @@ TEST_CASE("C: coatings: bare glass by Fresnel's equation, a v-coat dark at its w
   cj_error error = CJ_INIT(cj_error);
   REQUIRE(cj_coating_reflectances(bare.coating, bare.glass, nm, angles, 2, r, &error) == CJ_OK);
   REQUIRE(cj_coating_transmittances(bare.coating, bare.glass, nm, angles, 2, t, &error) == CJ_OK);
-  CHECK(r[0] == doctest::Approx(0.04).epsilon(1e-12));
+  CHECK(r[0] == test::approx(0.04).epsilon(1e-12));
   const double inside = std::asin(std::sin(1.0) / 1.5);  // Snell and Fresnel
   const double r_s = -std::sin(1.0 - inside) / std::sin(1.0 + inside);
   const double r_p = std::tan(1.0 - inside) / std::tan(1.0 + inside);
-  CHECK(r[1] == doctest::Approx(0.5 * (r_s * r_s + r_p * r_p)).epsilon(1e-9));
-  CHECK(r[1] + t[1] == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(r[1] == test::approx(0.5 * (r_s * r_s + r_p * r_p)).epsilon(1e-9));
+  CHECK(r[1] + t[1] == test::approx(1.0).epsilon(1e-12));
   const double beyond[] = {2.0, 2.0};
   CHECK(cj_coating_reflectances(bare.coating, bare.glass, nm, beyond, 2, r, &error) == CJ_INVALID_ARGUMENT);
 
@@ -93,11 +94,11 @@ TEST_CASE("C: coatings: bare glass by Fresnel's equation, a v-coat dark at its w
   cj_film film = CJ_INIT(cj_film);
   REQUIRE(cj_coating_get_film(films, 0, &film, &error) == CJ_OK);
   CHECK(std::string(film.material) == "MgF2");
-  CHECK(film.n == doctest::Approx(1.38).epsilon(0.01));
+  CHECK(film.n == test::approx(1.38).epsilon(0.01));
   const double wanted[] = {450.0}, target[] = {0.01};
   REQUIRE(cj_coating_refine(dark.coating, dark.glass, wanted, target, nullptr, 1, &refined, &error) == CJ_OK);
   REQUIRE(cj_coating_reflectances(refined, dark.glass, wanted, angles, 1, r, &error) == CJ_OK);
-  CHECK(r[0] == doctest::Approx(0.01).epsilon(1e-3));
+  CHECK(r[0] == test::approx(0.01).epsilon(1e-3));
   CHECK(cj_coating_on_glass(bare.coating, bare.glass, &films, &error) == CJ_INVALID_ARGUMENT);
   cj_coating_destroy(refined);
   cj_coating_destroy(films);

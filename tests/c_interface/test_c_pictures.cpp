@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "c_interface/c_objects.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::c_test;
@@ -78,7 +79,7 @@ TEST_CASE("C: rows from the bottom, in half floats with alpha, hold the same pic
       const float expected = pixels[std::size_t{3} * (std::size_t(y) * kWidth + std::size_t(x))];
       const double value =
           std::ldexp((at[0] & 0x3ff) + ((at[0] & 0x7c00) != 0 ? 1024 : 0), std::max(1, (at[0] & 0x7c00) >> 10) - 25);
-      REQUIRE(value == doctest::Approx(std::abs(expected)).epsilon(1e-3).scale(1e-3));
+      REQUIRE(value == test::approx(std::abs(expected)).epsilon(1e-3).scale(1e-3));
     }
   }
 }

@@ -13,6 +13,7 @@
 #include "contrejour/apply.h"
 #include "contrejour/expert/settings.h"
 #include "image/test_pictures.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using params::Values;
@@ -70,7 +71,7 @@ TEST_CASE("a photograph gains its flare's flux, and no channel falls") {
     gained += static_cast<double>(picture.rgb.pixels[k]) - before.pixels[k];
   }
   CHECK(flux > 1.0);
-  CHECK(gained == doctest::Approx(flux).epsilon(1e-4));  // floats of the light's own pixel are 0.03 apart
+  CHECK(gained == test::approx(flux).epsilon(1e-4));  // floats of the light's own pixel are 0.03 apart
   REQUIRE(applied.plan.lights.size() == 1);
   CHECK(applied.plan.found.lights[0].centroid_px == Vec2{40.5, 12.5});
   CHECK(applied.flare.statistics.ghosts_rendered > 0);
@@ -149,7 +150,7 @@ TEST_CASE("pixels of twice the width: the flare is as large as the picture, and 
   const Image fine = must_apply(square_picture, values).flare.image;
   const Image coarse = must_apply(wide_picture, wide_values).flare.image;
   CHECK(coarse.width == kPlateWidth / 2);
-  CHECK(sum_of(coarse) == doctest::Approx(sum_of(fine)).epsilon(1e-3));
+  CHECK(sum_of(coarse) == test::approx(sum_of(fine)).epsilon(1e-3));
 }
 
 TEST_CASE("a wrong input is refused and leaves the photograph as it was") {

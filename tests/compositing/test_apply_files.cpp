@@ -11,6 +11,7 @@
 #include "contrejour/apply.h"
 #include "contrejour/expert/apply_files.h"
 #include "image/test_pictures.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using params::Values;
@@ -105,11 +106,10 @@ TEST_CASE("a photograph without flare is its file, byte for byte; as a PNG it is
   };
   CHECK(bytes_of(copy("same.exr", folder / "in.exr", {})) == bytes_of(folder / "in.exr"));
   CHECK(must_read(copy("anew.exr", folder / "gone.exr", {})).rgb.pixels == picture.rgb.pixels);
-  CHECK(must_read(copy("plain.png", folder / "in.exr", {})).rgb.pixels[0] == doctest::Approx(0.25).epsilon(0.001));
+  CHECK(must_read(copy("plain.png", folder / "in.exr", {})).rgb.pixels[0] == test::approx(0.25).epsilon(0.001));
   Values brighter;
   REQUIRE(brighter.set("exposure", "1").has_value());
-  CHECK(must_read(copy("bright.png", folder / "in.exr", brighter)).rgb.pixels[0] ==
-        doctest::Approx(0.5).epsilon(0.001));
+  CHECK(must_read(copy("bright.png", folder / "in.exr", brighter)).rgb.pixels[0] == test::approx(0.5).epsilon(0.001));
   CHECK(bytes_of(copy("bright.exr", folder / "in.exr", brighter)) == bytes_of(folder / "in.exr"));
   const auto exposed =
       written(folder, "out.png", [&](OutputFile& f) { return write_photograph(f, picture, brighter); });
@@ -146,8 +146,8 @@ TEST_CASE("pictures of what counts as lights: an EXR of their pixels, a PNG to l
   const Image pixels = draw("lights.exr");
   const auto lit = std::count_if(pixels.pixels.begin(), pixels.pixels.end(), [](float v) { return v > 0.0F; });
   CHECK(lit == 3);
-  CHECK(pixels.at(30, 8, 1) == doctest::Approx(5e4));
+  CHECK(pixels.at(30, 8, 1) == test::approx(5e4));
   const Image map = draw("lights.png");
-  CHECK(map.at(0, 0, 0) == doctest::Approx(0.3 * 0.25).epsilon(0.02));
+  CHECK(map.at(0, 0, 0) == test::approx(0.3 * 0.25).epsilon(0.02));
   CHECK(map.at(30, 8, 0) > 5.0F * map.at(30, 8, 2));
 }

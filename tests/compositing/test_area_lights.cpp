@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/apply.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::params;
@@ -81,7 +82,7 @@ TEST_CASE("a disc of pixels that leaves the picture fades as its visible area do
   const double whole = applied(picture_of_disc(70.0, 20.0), lens, values).value;
   constexpr double kStep = 0.5;
   Outcome last = applied(picture_of_disc(kWidth - kRadius - 1.0, 20.0), lens, values);
-  CHECK(last.value == doctest::Approx(whole).epsilon(0.02));
+  CHECK(last.value == test::approx(whole).epsilon(0.02));
   const double largest = total(last.flare);
   REQUIRE(largest > 0.0);
   for (double x = kWidth - kRadius - 1.0 + kStep; x < kWidth + kRadius + 1.0; x += kStep) {
@@ -171,7 +172,7 @@ TEST_CASE("a light's shape is its pixels, unless it is a point or shapes are off
   const Light disc = light_of(picture_of_disc(40.0, 30.0), "on");
   REQUIRE(disc.shape);
   // 36 mm over 96 pixels at 50 mm: a pixel is 0.0075.
-  CHECK(length(disc.shape->right) == doctest::Approx(0.0075).epsilon(0.05));
+  CHECK(length(disc.shape->right) == test::approx(0.0075).epsilon(0.05));
   CHECK(disc.shape->right.x > 0.0);
   CHECK(disc.shape->down.y < 0.0);
   Image rgb(kWidth, kHeight);

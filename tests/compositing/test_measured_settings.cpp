@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/measured_settings.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -45,9 +46,9 @@ TEST_CASE("measured settings: options of a lens are refused by name, their defau
 TEST_CASE("measured settings: equation 2 with what is given, the rest as in the photographs") {
   const MeasuredFlare flare = mirrored_disc();
   CHECK(*exposure_scale(flare, {}) == 1.0);
-  CHECK(*exposure_scale(flare, values_with({{"iso", "400"}})) == doctest::Approx(4.0));
-  CHECK(*exposure_scale(flare, values_with({{"fnumber", "4"}})) == doctest::Approx(0.25));
-  CHECK(*exposure_scale(flare, values_with({{"fnumber", "1"}, {"shutter", "1/8"}})) == doctest::Approx(0.5));
+  CHECK(*exposure_scale(flare, values_with({{"iso", "400"}})) == test::approx(4.0));
+  CHECK(*exposure_scale(flare, values_with({{"fnumber", "4"}})) == test::approx(0.25));
+  CHECK(*exposure_scale(flare, values_with({{"fnumber", "1"}, {"shutter", "1/8"}})) == test::approx(0.5));
   MeasuredFlare unexposed = flare;
   unexposed.exposure.reset();
   CHECK(*exposure_scale(unexposed, {}) == 1.0);
@@ -73,9 +74,9 @@ TEST_CASE("measured settings: a photograph's light has its ghost where the flare
       y_sum += value * (y + 0.5);
     }
   }
-  CHECK(x_sum / sum == doctest::Approx(120.0 - 90.5).epsilon(1e-3));
-  CHECK(y_sum / sum == doctest::Approx(80.0 - 20.5).epsilon(1e-3));
-  CHECK(sum == doctest::Approx(1000.0 * 0.0314159).epsilon(0.01));
+  CHECK(x_sum / sum == test::approx(120.0 - 90.5).epsilon(1e-3));
+  CHECK(y_sum / sum == test::approx(80.0 - 20.5).epsilon(1e-3));
+  CHECK(sum == test::approx(1000.0 * 0.0314159).epsilon(0.01));
   CHECK(drawn->visibility.brightest > 0.0);
   const auto dark = plan_flare(picture_of(Image(120, 80)), ideal_lens_of(flare), {});
   CHECK(render_flare(*dark, Image(120, 80), flare)->image.pixels == Image(120, 80).pixels);

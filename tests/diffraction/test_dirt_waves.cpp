@@ -12,6 +12,7 @@
 #include "contrejour/expert/starburst.h"
 #include "diffraction/dirt_waves.h"
 #include "diffraction/polygon_cover.h"
+#include "support/approx.h"
 #include "support/inside_polygon.h"
 #include "support/sum_of_channel.h"
 
@@ -113,14 +114,14 @@ TEST_CASE("a polygon covers its exact share of every sample, however it lies and
   const auto thin = cover(kSide, {{-3.0, -3.0}, {13.0, 13.0}, {13.0 - w, 13.0 + w}, {-3.0 - w, -3.0 + w}});
   double sum = 0.0;
   for (const double fraction : thin) sum += fraction;
-  CHECK(sum == doctest::Approx(10.0 * 2.0 * w).epsilon(1e-3));
+  CHECK(sum == test::approx(10.0 * 2.0 * w).epsilon(1e-3));
   // Polygons outside, without area, or with coordinates that are not numbers cover nothing.
   for (const auto& nothing : {std::vector<Vec2>{{20, 1}, {30, 1}, {25, 9}}, std::vector<Vec2>{{1, 3}, {9, 3}},
                               std::vector<Vec2>{{1, 1}, {NAN, 2}, {3, 3}}, std::vector<Vec2>{}}) {
     for (const double fraction : cover(kSide, nothing)) CHECK(std::abs(fraction) < 1e-9);
   }
   const auto all = cover(kSide, {{-1e6, -1e6}, {1e6, -1e6}, {1e6, 1e6}, {-1e6, 1e6}});
-  CHECK(*std::min_element(all.begin(), all.end()) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(*std::min_element(all.begin(), all.end()) == test::approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("dimmed samples lose amplitude and power by what is covered") {
@@ -128,8 +129,8 @@ TEST_CASE("dimmed samples lose amplitude and power by what is covered") {
   MaskPower power;
   // The right half of the sample above and to the right of the middle.
   dim(mask, power, std::vector<DimPolygon>{{{{0.5, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.5, 1.0}}, 0.25}});
-  CHECK(mask.amplitude[1 * 4 + 2] == doctest::Approx(1.0 - 0.5 * 0.5));
-  CHECK(power[1 * 4 + 2] == doctest::Approx(1.0 - 0.5 * 0.75));
+  CHECK(mask.amplitude[1 * 4 + 2] == test::approx(1.0 - 0.5 * 0.5));
+  CHECK(power[1 * 4 + 2] == test::approx(1.0 - 0.5 * 0.75));
   CHECK(std::count(power.begin(), power.end(), 1.0F) == 15);
 }
 
@@ -166,9 +167,9 @@ TEST_CASE("far fields of scratches and specks are those of their outlines, fring
         const double tau = std::remainder(angle - stroke.angle_rad - 0.5 * kPi, kPi);
         if (std::abs(tau) < 0.5 * std::abs(stroke.bend_rad) + 0.02) in_fan += own, expected_in_fan += exact;
       }
-      CHECK(sum / expected == doctest::Approx(1.0).epsilon(0.15));
+      CHECK(sum / expected == test::approx(1.0).epsilon(0.15));
       if (stroke.length_mm > 0.1) {
-        CHECK(in_fan / expected_in_fan == doctest::Approx(1.0).epsilon(0.15));
+        CHECK(in_fan / expected_in_fan == test::approx(1.0).epsilon(0.15));
         if (k > 100.0) CHECK(in_fan > 0.8 * sum);
       }
     }
@@ -188,7 +189,7 @@ TEST_CASE("what dirt takes out of the samples it sends farther: the plane's flux
     // Pixels of 1 mm: all of the plane within 300 mm.
     const Image image = drawn(dirty_pupil(c.strokes), 1.0, 600);
     for (int channel = 0; channel < 3; ++channel)
-      CHECK(test::sum_of_channel(image, channel) == doctest::Approx(1.0).epsilon(1.5e-3));
+      CHECK(test::sum_of_channel(image, channel) == test::approx(1.0).epsilon(1.5e-3));
   }
 }
 
@@ -234,7 +235,7 @@ TEST_CASE("the pattern goes on from spectrum to far field without a step, and th
   for (double r = 70.0; r < 300.0; r += 10.0) {
     CAPTURE(r);
     const double here = ring(r, r + 10.0) * std::pow(r + 5.0, 2.0);
-    CHECK(here / before == doctest::Approx(1.0).epsilon(0.25));
+    CHECK(here / before == test::approx(1.0).epsilon(0.25));
     before = here;
   }
   CHECK(drawn(pupil, 0.05, 100, 16.0, {.threads = 1}).pixels == drawn(pupil, 0.05, 100, 16.0, {.threads = 3}).pixels);

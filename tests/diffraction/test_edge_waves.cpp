@@ -12,6 +12,7 @@
 #include "diffraction/edge_waves.h"
 #include "diffraction/special_functions.h"
 #include "diffraction/uneven_edges.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -69,12 +70,12 @@ TEST_CASE("Fresnel integrals and the integral of sinc^2") {
     CHECK(g.c == -f.c);
     CHECK(std::abs(integral_of_sinc_squared(x + 0.5 * kStep) - q) < 1e-5);
   }
-  CHECK(integral_of_sinc_squared(1e6) == doctest::Approx(0.5 * kPi).epsilon(1e-5));
+  CHECK(integral_of_sinc_squared(1e6) == test::approx(0.5 * kPi).epsilon(1e-5));
 }
 
 TEST_CASE("a circle's far spectrum is the mean of Airy's rings") {
   const EdgeWaves edges(IrisOpening(Iris{}));
-  CHECK(edges.along(0.4, 1e-3).power(300.0) * std::pow(300.0, 3) == doctest::Approx(4.0 * kPi));
+  CHECK(edges.along(0.4, 1e-3).power(300.0) * std::pow(300.0, 3) == test::approx(4.0 * kPi));
 }
 
 TEST_CASE("edges and corners send what the contour integral says [slow]") {
@@ -92,7 +93,7 @@ TEST_CASE("edges and corners send what the contour integral says [slow]") {
       sum += found;
       expected_sum += expected;
     }
-    CHECK(sum / expected_sum == doctest::Approx(1.0).epsilon(3e-3));
+    CHECK(sum / expected_sum == test::approx(1.0).epsilon(3e-3));
     CHECK(off / expected_sum < 0.12);  // fringes at the ends of the fans
     // Only in the gaps between fans, which are a hundred times darker, where the waves of several corners are in phase.
     CHECK(worst < std::log(2.0));
@@ -117,7 +118,7 @@ TEST_CASE("arcs that meet nearly without a corner are nearly one: no dark line t
         sum += found / kDirections;
         expected_sum += expected / kDirections;
       }
-      CHECK(sum / expected_sum == doctest::Approx(1.0).epsilon(0.015));
+      CHECK(sum / expected_sum == test::approx(1.0).epsilon(0.015));
       CHECK(off / expected_sum < 0.05);
       CHECK(worst / expected_sum < 0.15);
     }
@@ -173,14 +174,14 @@ TEST_CASE("fans that end where others begin leave a dark line between exact arcs
   const double boundary = kPi / 18.0;  // half way between two fans
   CHECK(averaged(opening, 1600.0, boundary, 1e-3) * std::pow(1600.0, 3) / (2.0 * kPi * 2.0) < 0.55);
   const double spread = iris_slope_spread_rad(iris);
-  CHECK(spread == doctest::Approx(iris.slope_spread * 2.0 * std::asin(0.5 * std::sin(kPi / 9.0))));
+  CHECK(spread == test::approx(iris.slope_spread * 2.0 * std::asin(0.5 * std::sin(kPi / 9.0))));
   for (const double k : {1600.0, 6400.0, 25600.0}) {
     CAPTURE(k);
     const Evenness exact = evenness(UnevenEdges(opening, 0.0, {}), k),
                    uneven = evenness(UnevenEdges(opening, spread, {}), k);
     CHECK(exact.darkest < 0.55);
     CHECK(uneven.darkest > 0.85);
-    CHECK(uneven.mean / exact.mean == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(uneven.mean / exact.mean == test::approx(1.0).epsilon(1e-3));
     CHECK(uneven.step < 0.02);
   }
   // Straight edges remain exact, and so do arcs that form one circle.
@@ -189,5 +190,5 @@ TEST_CASE("fans that end where others begin leave a dark line between exact arcs
   const Iris nearly_round{7, 0.0, 0.9999};
   const UnevenEdges round(IrisOpening(nearly_round), iris_slope_spread_rad(nearly_round), {});
   CHECK(evenness(round, 1600.0).darkest > 0.9);
-  CHECK(evenness(round, 1600.0).mean * std::pow(1600.0, 3) == doctest::Approx(4.0 * kPi).epsilon(0.05));
+  CHECK(evenness(round, 1600.0).mean * std::pow(1600.0, 3) == test::approx(4.0 * kPi).epsilon(0.05));
 }

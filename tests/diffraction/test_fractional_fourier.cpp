@@ -9,6 +9,7 @@
 
 #include "base/scalar.h"
 #include "contrejour/expert/fractional_fourier.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -74,7 +75,7 @@ TEST_CASE("orders 0, 1 and 2: identity, the centred DFT, the flip; orders add; e
     const Square part = fourier.transform(square, 0.37);
     CHECK(largest_difference(fourier.transform(part, 0.63), fourier.transform(square, 1.0)) < 1e-6);
     CHECK(largest_difference(fourier.transform(fourier.transform(square, -0.8), 0.8), square) < 1e-6);
-    CHECK(energy(part) == doctest::Approx(energy(square)).epsilon(1e-9));
+    CHECK(energy(part) == test::approx(energy(square)).epsilon(1e-9));
   }
 }
 
@@ -93,7 +94,7 @@ TEST_CASE("a Gaussian off the axis turns in phase space as the continuous transf
     for (int c = 0; c < kSide; ++c) {
       const double expected = std::exp(-kPi * std::pow(x_of(c) - std::cos(0.5 * kPi * order), 2));
       CHECK(std::abs(turned[static_cast<std::size_t>(kSide / 2 * kSide + c)]) ==
-            doctest::Approx(expected).epsilon(0.015).scale(1.0));
+            test::approx(expected).epsilon(0.015).scale(1.0));
     }
   }
 }
@@ -105,6 +106,6 @@ TEST_CASE("orders of one analysis are those of separate transforms; cancelling e
   CHECK(fourier.transform(square, 0.3, {.threads = 1}) == fourier.transform(square, 0.3, {.threads = 5}));
   const std::atomic<bool> stop = true;
   CHECK(fourier.transform(square, 0.3, {.cancel = &stop}).empty());
-  CHECK(hullin_order(400.0, 18.0) == doctest::Approx(0.15));
-  CHECK(hullin_order(600.0, 9.0) == doctest::Approx(0.1125));
+  CHECK(hullin_order(400.0, 18.0) == test::approx(0.15));
+  CHECK(hullin_order(600.0, 9.0) == test::approx(0.1125));
 }

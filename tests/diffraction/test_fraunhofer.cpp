@@ -7,6 +7,7 @@
 
 #include "base/scalar.h"
 #include "contrejour/expert/fraunhofer.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -49,14 +50,14 @@ TEST_CASE("a circular pupil gives Airy's pattern in absolute units") {
     const double radius_mm = 50.0 / (2.0 * f_number), lambda_n_mm = 550e-6 * f_number;
     const FraunhoferPattern pattern =
         fraunhofer_pattern(circle(radius_mm), {50.0, 550.0, 3.0, {401, 0.02 * lambda_n_mm}}).value();
-    CHECK(first_minimum(pattern) / (1.2197 * lambda_n_mm) == doctest::Approx(1.0).epsilon(2.5e-3));
+    CHECK(first_minimum(pattern) / (1.2197 * lambda_n_mm) == test::approx(1.0).epsilon(2.5e-3));
     // Born & Wolf 8.5.2: E(0) = flux A / (lambda d)^2, E / E(0) = (2 J1(v) / v)^2, v = pi r / (lambda N).
     const double peak = 3.0 * kPi * radius_mm * radius_mm / std::pow(550e-6 * 50.0, 2);
-    CHECK(at_radius(pattern, 0.0) == doctest::Approx(peak).epsilon(3e-3));
+    CHECK(at_radius(pattern, 0.0) == test::approx(peak).epsilon(3e-3));
     for (const double r : {0.4, 0.9, 1.6, 2.7, 3.3}) {
       const double v = kPi * r;
       CHECK(at_radius(pattern, r * lambda_n_mm) / peak ==
-            doctest::Approx(std::pow(2.0 * std::cyl_bessel_j(1.0, v) / v, 2)).epsilon(0.02).scale(0.02));
+            test::approx(std::pow(2.0 * std::cyl_bessel_j(1.0, v) / v, 2)).epsilon(0.02).scale(0.02));
     }
   }
 }
@@ -66,13 +67,13 @@ TEST_CASE("the plane gets the flux that is given") {
   const FraunhoferPattern pattern =
       fraunhofer_pattern(circle(2.0, 900), {50.0, 550.0, 7.0, {1601, 0.25 * 550e-6 * 12.5}}).value();
   const double half = 0.25 * 800.0, outside = 2.0 / (kPi * kPi * half) * (2.0 * std::sqrt(2.0) / kPi);
-  CHECK(flux_of(pattern) / 7.0 + outside == doctest::Approx(1.0).epsilon(5e-4));
+  CHECK(flux_of(pattern) / 7.0 + outside == test::approx(1.0).epsilon(5e-4));
 }
 
 TEST_CASE("half the f-number, half the width") {
   const double wide = first_minimum(fraunhofer_pattern(circle(2.0), {50.0, 550.0, 1.0, {301, 0.2e-3}}).value());
   const double narrow = first_minimum(fraunhofer_pattern(circle(4.0), {50.0, 550.0, 1.0, {301, 0.1e-3}}).value());
-  CHECK(wide / narrow == doctest::Approx(2.0).epsilon(2e-3));
+  CHECK(wide / narrow == test::approx(2.0).epsilon(2e-3));
 }
 
 TEST_CASE("a rectangle's pattern is the product of two sincs, wider where the opening is narrower") {
@@ -86,7 +87,7 @@ TEST_CASE("a rectangle's pattern is the product of two sincs, wider where the op
       const double expected =
           1.2 * 3.6 / (lambda_d * lambda_d) * sinc2(1.2 * x * 1e-3 / lambda_d) * sinc2(3.6 * y * 1e-3 / lambda_d);
       CHECK(pattern.irradiance_per_mm2[static_cast<std::size_t>((100 - y) * 201 + 100 + x)] ==
-            doctest::Approx(expected).epsilon(0.01).scale(20.0));
+            test::approx(expected).epsilon(0.01).scale(20.0));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "contrejour/expert/fraunhofer.h"
 #include "contrejour/expert/fresnel.h"
 #include "diffraction/fresnel_methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -39,7 +40,7 @@ double edge_irradiance(double w) {
 TEST_CASE("a circle on its axis: 4 sin^2(pi F / 2)") {
   for (const double f : {0.3, 1.0, 1.5, 2.0, 3.0, 5.5, 8.0, 13.0, 40.5, 51.0}) {
     const FresnelPattern pattern = fresnel_pattern(circle(1024), 1.0, {f, 65, 0.05});
-    CHECK(at_axis(pattern) == doctest::Approx(4.0 * std::pow(std::sin(0.5 * kPi * f), 2)).epsilon(0.02).scale(1.0));
+    CHECK(at_axis(pattern) == test::approx(4.0 * std::pow(std::sin(0.5 * kPi * f), 2)).epsilon(0.02).scale(1.0));
   }
 }
 
@@ -56,13 +57,13 @@ TEST_CASE("a straight edge: the first overshoot is 1.370 and where the Fresnel i
     if (value > best && (k - 1000) * pitch > 0.85) best = value, best_x = (k - 1000) * pitch;
   }
   // Born & Wolf figure 8.37: the maximum is at w = 1.2172.
-  CHECK(best == doctest::Approx(1.370).epsilon(0.005));
-  CHECK((1.0 - best_x) * std::sqrt(2.0 * f) == doctest::Approx(1.2172).epsilon(0.005));
+  CHECK(best == test::approx(1.370).epsilon(0.005));
+  CHECK((1.0 - best_x) * std::sqrt(2.0 * f) == test::approx(1.2172).epsilon(0.005));
   for (const double w : {-1.5, -0.5, 0.0, 0.6, 1.2, 1.9}) {
     const int k = static_cast<int>(std::lround((1.0 - w / std::sqrt(2.0 * f)) / pitch));
     const double there = (1.0 - k * pitch) * std::sqrt(2.0 * f);
     CHECK(pattern.irradiance[static_cast<std::size_t>(1000 * 2001 + 1000 + k)] ==
-          doctest::Approx(edge_irradiance(there)).epsilon(0.02).scale(0.5));
+          test::approx(edge_irradiance(there)).epsilon(0.02).scale(0.5));
   }
 }
 
@@ -82,7 +83,7 @@ TEST_CASE("F = 2: light spreads, none is lost, no ripple far out") {
   const FresnelPattern pattern = fresnel_pattern(mask, 1.0, {2.0, 801, 20.0});
   // Airy's tail at rho = 2 F x, over a square: see test_starburst.cpp.
   const double outside = 2.0 / (kPi * kPi * 2.0 * 2.0 * 20.0) * std::sqrt(8.0) / kPi;
-  CHECK(pattern.flux * mask.open_area_mm2() / kPi + outside == doctest::Approx(1.0).epsilon(5e-4));
+  CHECK(pattern.flux * mask.open_area_mm2() / kPi + outside == test::approx(1.0).epsilon(5e-4));
   double last = 1.0;
   for (double r = 3.0; r < 19.0; r += 0.5) {  // the brightest ring of each half radius decreases as r^-3
     double brightest = 0.0;
@@ -133,7 +134,7 @@ TEST_CASE("F -> infinity is the sharp mask") {
 }
 
 TEST_CASE("a system's Fresnel number") {
-  CHECK(fresnel_number(2.0, 1.0, 1000.0, 500.0) == doctest::Approx(8.0));  // free space: a^2 / (lambda z)
-  CHECK(fresnel_number(2.0, -0.5, 1000.0, 500.0) == doctest::Approx(4.0));
+  CHECK(fresnel_number(2.0, 1.0, 1000.0, 500.0) == test::approx(8.0));  // free space: a^2 / (lambda z)
+  CHECK(fresnel_number(2.0, -0.5, 1000.0, 500.0) == test::approx(4.0));
   CHECK(std::isinf(fresnel_number(2.0, 0.7, 0.0, 500.0)));
 }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/pupil_mask.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -23,7 +24,7 @@ TEST_CASE("a mask's samples add up to the opening's area") {
     const IrisOpening opening(iris);
     for (const int samples : {63, 128, 511}) {
       const PupilMask mask = make_mask(grid_over(3.0, samples), opening, 3.0);
-      CHECK(open_fraction(mask) == doctest::Approx(9.0 * opening.area()).epsilon(2e-4));
+      CHECK(open_fraction(mask) == test::approx(9.0 * opening.area()).epsilon(2e-4));
       CHECK(mask.real());
     }
   }
@@ -40,8 +41,7 @@ TEST_CASE("an edge's samples are its exact share, at any angle") {
         int inside = 0;
         for (int i = 0; i < 10000; ++i)
           inside += dot(n, centre + Vec2{(i % 100 + 0.5) / 100 - 0.5, (i / 100 + 0.5) / 100 - 0.5}) <= 0.37;
-        CHECK(mask.amplitude[static_cast<std::size_t>(row * 64 + column)] ==
-              doctest::Approx(inside * 1e-4).epsilon(0.02));
+        CHECK(mask.amplitude[static_cast<std::size_t>(row * 64 + column)] == test::approx(inside * 1e-4).epsilon(0.02));
       }
     }
   }
@@ -77,7 +77,7 @@ TEST_CASE("dirt dims where it lies") {
   const auto at = [](const PupilMask& m, int x, int y) {
     return m.amplitude[static_cast<std::size_t>(y * m.grid.side + x)];
   };
-  CHECK(at(dirty, 25, 25) == doctest::Approx(0.25).epsilon(0.02));
+  CHECK(at(dirty, 25, 25) == test::approx(0.25).epsilon(0.02));
   CHECK(at(dirty, 76, 76) == 1.0F);
   CHECK(at(clean, 25, 25) == 1.0F);
 }

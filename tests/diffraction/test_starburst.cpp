@@ -13,6 +13,7 @@
 #include "base/scalar.h"
 #include "contrejour/expert/fraunhofer.h"
 #include "contrejour/expert/starburst.h"
+#include "support/approx.h"
 #include "support/sum_of_channel.h"
 
 using namespace contrejour;
@@ -82,7 +83,7 @@ TEST_CASE("the plane gets the light's flux in every channel, wherever in a pixel
       const double rho = 300.0 * c.pitch_mm / (550e-6 * c.f_number) * kPi / std::sqrt(8.0);
       const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
       for (int channel = 0; channel < 3; ++channel)
-        CHECK(test::sum_of_channel(image, channel) + outside == doctest::Approx(1.0).epsilon(5e-4));
+        CHECK(test::sum_of_channel(image, channel) + outside == test::approx(1.0).epsilon(5e-4));
     }
   }
 }
@@ -107,7 +108,7 @@ TEST_CASE("half the f-number draws the same at half the pitch, four times as den
   const Image wide = drawn({7, 0.2, 0.2}, settings_of(16.0, 0.004, 300.0), 400);
   const Image narrow = drawn({7, 0.2, 0.2}, settings_of(8.0, 0.002, 300.0), 400);
   for (std::size_t k = 0; k < wide.pixels.size(); k += 997)
-    CHECK(narrow.pixels[k] / wide.pixels[k] == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(narrow.pixels[k] / wide.pixels[k] == test::approx(1.0).epsilon(1e-3));
 }
 
 TEST_CASE("a quarter-size picture is the full one filtered") {
@@ -163,7 +164,7 @@ TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what 
     for (std::size_t i = 1; i < 19; ++i) {
       const double here = sum[i] / count[i], before = sum[i - 1] / count[i - 1];
       INFO("angle ", angle, " radius ", 100.0 * std::pow(kRatio, i));
-      CHECK(here / before == doctest::Approx(std::pow(kRatio, -3)).epsilon(0.085));
+      CHECK(here / before == test::approx(std::pow(kRatio, -3)).epsilon(0.085));
       darkest = std::min(darkest, here);
     }
   }
@@ -210,7 +211,7 @@ TEST_CASE("a scratch adds a streak across itself, and no light is lost") {
   Image with(1100, 1100), without(1100, 1100);
   add_starburst(with, make_starburst(scratched, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
   add_starburst(without, make_starburst(clean, &outline, sunlight(), settings).value(), {550, 550}, {1, 1, 1});
-  for (int c = 0; c < 3; ++c) CHECK(test::sum_of_channel(with, c) == doctest::Approx(1.0).epsilon(2e-3));
+  for (int c = 0; c < 3; ++c) CHECK(test::sum_of_channel(with, c) == test::approx(1.0).epsilon(2e-3));
   for (const int r : {60, 150, 400}) {  // the spectrum, where it fades, and the tail
     const float across = with.at(550, 550 + r, 1) / without.at(550, 550 + r, 1);
     const float along = with.at(550 + r, 550, 1) / without.at(550 + r, 550, 1);
@@ -282,7 +283,7 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
   const PupilMask fine = make_mask(grid_over(0.85, 1600), distance_mm),
                   coarse = make_mask(grid_over(0.85, 400), distance_mm);
   const PupilOutline outline{opening, x_mm, y_mm};
-  CHECK(fine.open_area_mm2() == doctest::Approx(outline.area_mm2()).epsilon(1e-3));
+  CHECK(fine.open_area_mm2() == test::approx(outline.area_mm2()).epsilon(1e-3));
   // The coarse mask's spectrum ends at rho = 80, the fine one's at 320: 150 to 600 pixels here.
   const StarburstSettings settings{50.0, 0.85, 0.0087, 500.0};
   Image exact(800, 800), tail(800, 800);
@@ -296,7 +297,7 @@ TEST_CASE("a pupil seen askew: its outline's tail goes on from its samples' spec
     sum_truth += truth[k];
     sum_found += found[k];
   }
-  CHECK(sum_found / sum_truth == doctest::Approx(1.0).epsilon(0.02));
+  CHECK(sum_found / sum_truth == test::approx(1.0).epsilon(0.02));
 }
 
 // The pattern of a polygon's opening by its Fourier integral over the plane (Lee & Mittra 1983), over all wavelengths.
@@ -347,7 +348,8 @@ class ExactStarburst {
   double area_ = 0.0;
 };
 
-TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spikes, opposite ones, and between them [slow]") {
+TEST_CASE(
+    "windows of pixels hold the exact pattern's flux at any pitch, on spikes, opposite ones, and between them [slow]") {
   struct Case {
     Iris iris;
     double f_number, pitch_mm;
@@ -372,7 +374,7 @@ TEST_CASE("windows of pixels hold the exact pattern's flux at any pitch, on spik
           for (int k = 0; k < side * side; ++k) sum += image.at(x0 + k % side, y0 + k / side, 1);
           const Vec2 corner{x0 - centre.x, y0 - centre.y};
           const double truth = exact.flux(corner, side, side == 1 ? 200 : 64);
-          CHECK(sum / truth == doctest::Approx(1.0).epsilon(0.01));
+          CHECK(sum / truth == test::approx(1.0).epsilon(0.01));
         }
       }
     }
@@ -405,7 +407,7 @@ TEST_CASE("as a light moves by tenths of a pixel no spike flickers, of blades or
     std::vector<double> before;
     for (int k = 0; k <= 10; ++k) {
       const std::vector<double> held = held_by_lines(starburst, 200, {0.1 * k, 0.03 * k});
-      for (std::size_t i = 0; i < before.size(); ++i) CHECK(held[i] / before[i] == doctest::Approx(1.0).epsilon(0.01));
+      for (std::size_t i = 0; i < before.size(); ++i) CHECK(held[i] / before[i] == test::approx(1.0).epsilon(0.01));
       before = held;
     }
   }
@@ -423,7 +425,7 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
       const bool cut = centre.x > 390.0 && centre.x < 410.0;  // the frame's edge goes through the core
       for (int c = 0; c < 3; ++c)
         CHECK(test::sum_of_channel(laid, c) / test::sum_of_channel(direct, c) ==
-              doctest::Approx(1.0).epsilon(cut ? 0.02 : 1e-4));
+              test::approx(1.0).epsilon(cut ? 0.02 : 1e-4));
       double worst_near = 0.0, worst_far = 0.0, core_error = 0.0;
       for (int y = 0; y < 300; ++y) {
         for (int x = 0; x < 400; ++x) {
@@ -434,7 +436,7 @@ TEST_CASE("laid out, a starburst is drawn as without, and moves smoothly") {
           // The centre is placed to an eighth of a pixel; in between, the pattern is interpolated linearly, which
           // widens a thin spike's edge.
           const bool on_eighth = centre.x == 200.0 || centre.x == 420.0;
-          if (r > 10.0 && r < 14.0) CHECK(b / a == doctest::Approx(1.0).epsilon(on_eighth ? 3e-3 : 0.06));
+          if (r > 10.0 && r < 14.0) CHECK(b / a == test::approx(1.0).epsilon(on_eighth ? 3e-3 : 0.06));
           if (iris.blades > 0 || r < 18.0) continue;
           (r < 80.0 ? worst_near : worst_far) = std::max(r < 80.0 ? worst_near : worst_far, std::abs(b / a - 1.0));
         }

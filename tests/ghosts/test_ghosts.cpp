@@ -13,6 +13,7 @@
 #include "contrejour/frame.h"
 #include "ghosts/wavelengths.h"
 #include "render/pupils/pupil_search.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -95,14 +96,14 @@ TEST_CASE("ghosts as many exact rays have them: flux, middle, bounds and peak") 
     REQUIRE(truth.flux_mm2 > 0.0);
     const Vec2 size = truth.max_mm - truth.min_mm;
     const double extent = std::max(size.x, size.y);
-    CHECK(m.flux_mm2 / truth.flux_mm2 == doctest::Approx(1.0).epsilon(2e-3));  // the count is accurate to 1e-3
+    CHECK(m.flux_mm2 / truth.flux_mm2 == test::approx(1.0).epsilon(2e-3));  // the count is accurate to 1e-3
     CHECK(length(m.centroid_mm - truth.centroid_mm) < 0.01 * extent);
-    CHECK((m.max_mm.x - m.min_mm.x) / size.x == doctest::Approx(1.0).epsilon(0.015));
-    CHECK((m.max_mm.y - m.min_mm.y) / size.y == doctest::Approx(1.0).epsilon(0.015));
+    CHECK((m.max_mm.x - m.min_mm.x) / size.x == test::approx(1.0).epsilon(0.015));
+    CHECK((m.max_mm.y - m.min_mm.y) / size.y == test::approx(1.0).epsilon(0.015));
     // Where many rays fall into each pixel, the highest count is not due to chance.
     const double pixels = size.x * size.y / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
     const double rays_a_pixel = 500.0 * 500.0 / pixels;
-    if (rays_a_pixel > 4.0) CHECK(m.peak_per_mm2 / truth.peak_per_mm2 == doctest::Approx(1.0).epsilon(0.25));
+    if (rays_a_pixel > 4.0) CHECK(m.peak_per_mm2 / truth.peak_per_mm2 == test::approx(1.0).epsilon(0.25));
   }
 }
 
@@ -140,10 +141,10 @@ TEST_CASE("a plate's ghost carries area cos(theta) T R R T, and lands as the sto
     const double area = std::numbers::pi * 9.0 * std::cos(angle);
     const GhostMeter meter(lens, kGreen_nm);
     const GhostMeasure m = meter.measure({2, 3}, d);
-    CHECK(m.flux_mm2 / (area * (1 - r) * r * r * (1 - r)) == doctest::Approx(1.0).epsilon(1e-3));
-    CHECK(m.max_mm.x - m.min_mm.x == doctest::Approx(6.0).epsilon(0.05));
-    CHECK(m.peak_per_mm2 / (std::cos(angle) * (1 - r) * r * r * (1 - r)) == doctest::Approx(1.0).epsilon(1e-3));
-    CHECK(meter.direct_flux(d) == doctest::Approx(area * (1 - r) * (1 - r)).epsilon(3e-4));
+    CHECK(m.flux_mm2 / (area * (1 - r) * r * r * (1 - r)) == test::approx(1.0).epsilon(1e-3));
+    CHECK(m.max_mm.x - m.min_mm.x == test::approx(6.0).epsilon(0.05));
+    CHECK(m.peak_per_mm2 / (std::cos(angle) * (1 - r) * r * r * (1 - r)) == test::approx(1.0).epsilon(1e-3));
+    CHECK(meter.direct_flux(d) == test::approx(area * (1 - r) * (1 - r)).epsilon(3e-4));
   }
 }
 
@@ -160,7 +161,7 @@ TEST_CASE("a near light's direct flux is the solid angle that the stop fills, se
     CAPTURE(distance_mm);
     const double solid_angle = 2.0 * std::numbers::pi * (1.0 - distance_mm / std::hypot(distance_mm, 3.0));
     const double expected = distance_mm < 1e5 ? distance_mm * distance_mm * solid_angle : std::numbers::pi * 9.0;
-    CHECK(meter.direct_flux(LightSource({0, 0, 1}, distance_mm)) == doctest::Approx(expected).epsilon(5e-4));
+    CHECK(meter.direct_flux(LightSource({0, 0, 1}, distance_mm)) == test::approx(expected).epsilon(5e-4));
   }
 }
 
@@ -197,7 +198,7 @@ TEST_CASE("a pupil of a ten-thousandth of the window's area is found") {
   lens.stop_radius_mm = 0.05;
   const GhostMeasure m = GhostMeter(lens, kGreen_nm).measure({2, 3}, Vec3{0, 0, 1});
   const double r = 0.04;
-  CHECK(m.flux_mm2 / (std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)) == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(m.flux_mm2 / (std::numbers::pi * 0.0025 * (1 - r) * r * r * (1 - r)) == test::approx(1.0).epsilon(2e-3));
 }
 
 // A grid of 577 rays a side for every ghost that lets nothing through had taken up to 50 s, compared with one for
@@ -217,6 +218,6 @@ TEST_CASE("an iris polygon cuts the direct flux by its area") {
   const double open = GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1});
   lens.iris = {6, 0.3};
   CHECK(GhostMeter(lens, kGreen_nm).direct_flux(Vec3{0, 0, 1}) / open ==
-        doctest::Approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
-  CHECK(iris_area_fraction({6, 0.0}) == doctest::Approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
+        test::approx(iris_area_fraction(lens.iris)).epsilon(1e-3));
+  CHECK(iris_area_fraction({6, 0.0}) == test::approx(3.0 * std::sqrt(3.0) / (2.0 * std::numbers::pi)));
 }

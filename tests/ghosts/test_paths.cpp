@@ -12,6 +12,7 @@
 #include "contrejour/expert/glass_catalogue.h"
 #include "ghosts/wavelengths.h"
 #include "optics/trace/packet_trace.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -101,8 +102,8 @@ TEST_CASE("a plate sends R^2 of two reflections and R^4 of four") {
   lens.surfaces.insert(lens.surfaces.begin(), {front, back});
   lens.stop_index += 2;
   const double r = 1.0 / 9.0;
-  CHECK(relative_flux(lens, {1, 2}) / (r * r) == doctest::Approx(1.0).epsilon(1e-3));
-  CHECK(relative_flux(lens, {1, 2, 1, 2}) / (r * r * r * r) == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(relative_flux(lens, {1, 2}) / (r * r) == test::approx(1.0).epsilon(1e-3));
+  CHECK(relative_flux(lens, {1, 2, 1, 2}) / (r * r * r * r) == test::approx(1.0).epsilon(1e-3));
 }
 
 TEST_CASE("matrices of four reflections are those of rays near the axis") {
@@ -116,7 +117,7 @@ TEST_CASE("matrices of four reflections are those of rays near the axis") {
     const TracedRay ray = trace(ghost_path(lens, ghosts[g], kGreen_nm), {{0, kHeight_mm, 0}, {0, 0, 1}});
     REQUIRE(ray.status == RayStatus::Ok);
     const Abcd m = abcd_ghost(lens, ghosts[g], kGreen_nm);
-    CHECK(ray.sensor_mm.y / kHeight_mm == doctest::Approx(m.a).epsilon(1e-6));
+    CHECK(ray.sensor_mm.y / kHeight_mm == test::approx(m.a).epsilon(1e-6));
     ++looked_at;
   }
   CHECK(looked_at >= 20);
@@ -125,9 +126,9 @@ TEST_CASE("matrices of four reflections are those of rays near the axis") {
 TEST_CASE("a plate moves the sensor by t (1 - 1 / n), and too many do not fit") {
   const LensState bare = bundled("heliar", {.f_number = 16.0});
   const LensState covered = bundled("heliar", with_sensor(0.0));
-  CHECK(covered.sensor_z_mm - bare.sensor_z_mm == doctest::Approx(2.0 / 3.0).epsilon(1e-9));
+  CHECK(covered.sensor_z_mm - bare.sensor_z_mm == test::approx(2.0 / 3.0).epsilon(1e-9));
   REQUIRE(covered.surfaces.size() == bare.surfaces.size() + 2);
-  CHECK(covered.sensor_z_mm - covered.surfaces.back().z_mm == doctest::Approx(3.0).epsilon(1e-9));
+  CHECK(covered.sensor_z_mm - covered.surfaces.back().z_mm == test::approx(3.0).epsilon(1e-9));
   // The sensor is still in focus: a ray close to the axis meets its middle.
   const TracedRay ray = trace(direct_path(covered, kLineD_nm), {{0, 1e-4, 0}, {0, 0, 1}});
   CHECK(std::abs(ray.sensor_mm.y) < 1e-10);
@@ -150,12 +151,11 @@ TEST_CASE(
   REQUIRE(lens.surfaces.back().kind == SurfaceKind::Sensor);
   const double r = 0.04;
   // At f/16 angles are small enough.
-  CHECK(relative_flux(lens, {sensor - 1, sensor}) / (0.2 * r) == doctest::Approx(1.0).epsilon(2e-3));
-  CHECK(relative_flux(lens, {sensor - 2, sensor}) / (0.2 * r * (1 - r) * (1 - r)) ==
-        doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(relative_flux(lens, {sensor - 1, sensor}) / (0.2 * r) == test::approx(1.0).epsilon(2e-3));
+  CHECK(relative_flux(lens, {sensor - 2, sensor}) / (0.2 * r * (1 - r) * (1 - r)) == test::approx(1.0).epsilon(2e-3));
   // Twice the direct image's own cone, from a path that is longer by twice the gap.
   const GhostMeasure ghost = GhostMeter(lens, kGreen_nm).measure({sensor - 1, sensor}, LightSource{{0, 0, 1}});
-  CHECK(0.5 * (ghost.max_mm.y - ghost.min_mm.y) == doctest::Approx(2.0 * 3.0 / 32.0).epsilon(0.03));
+  CHECK(0.5 * (ghost.max_mm.y - ghost.min_mm.y) == test::approx(2.0 * 3.0 / 32.0).epsilon(0.03));
 }
 
 TEST_CASE("a sensor holds light within its frame only, and that outside it is not lost to the direct image") {
@@ -189,11 +189,11 @@ TEST_CASE("the sensor's orders land where the grating equation has them, and sha
     const GhostMeasure ghost = measured(order, 0);
     // Over the gap of 3 mm and back.
     const double sine = order * kGreen_nm * 1e-6 / 0.006;
-    CHECK(ghost.centroid_mm.x == doctest::Approx(6.0 * sine / std::sqrt(1.0 - sine * sine)).epsilon(5e-3));
+    CHECK(ghost.centroid_mm.x == test::approx(6.0 * sine / std::sqrt(1.0 - sine * sine)).epsilon(5e-3));
     CHECK(std::abs(ghost.centroid_mm.y) < 1e-3);
     const double at = 3.14159265358979 * order * 0.7;
-    CHECK(ghost.flux_mm2 / none == doctest::Approx(std::pow(std::sin(at) / at, 2.0)).epsilon(0.02));
-    CHECK(measured(0, order).flux_mm2 / ghost.flux_mm2 == doctest::Approx(1.0).epsilon(2e-3));
+    CHECK(ghost.flux_mm2 / none == test::approx(std::pow(std::sin(at) / at, 2.0)).epsilon(0.02));
+    CHECK(measured(0, order).flux_mm2 / ghost.flux_mm2 == test::approx(1.0).epsilon(2e-3));
   }
   CHECK(has_ghost(lens, {sensor - 1, sensor, 0, 0, {3, -3}}));
   CHECK_FALSE(has_ghost(lens, {sensor - 1, sensor, 0, 0, {4, 0}}));
@@ -234,7 +234,7 @@ TEST_CASE("glass absorbs by the path length in it, in both tracers alike") {
   const double length_mm = length(way.steps[last].position_mm - way.steps[last - 1].position_mm);
   CHECK(length_mm > 10.05);
   CHECK(way.ray.transmission / traced(clear).ray.transmission ==
-        doctest::Approx(std::pow(per_cm, length_mm / 10.0)).epsilon(1e-9));
+        test::approx(std::pow(per_cm, length_mm / 10.0)).epsilon(1e-9));
 
   const ReflectanceTables tables(dark, lambda_nm);
   const OpticalPath path = direct_path(dark, lambda_nm);
@@ -244,6 +244,6 @@ TEST_CASE("glass absorbs by the path length in it, in both tracers alike") {
     float x = 0, y = 0, transmission = 0, relative_height = 0, stop_x = 0, stop_y = 0;
     TracedArrays out{&x, &y, &transmission, &relative_height, {&stop_x}, {&stop_y}, nullptr, 0};
     trace_packets(packets, precision, &zero, &zero, 1, out);
-    CHECK(transmission == doctest::Approx(way.ray.transmission).epsilon(1e-4));
+    CHECK(transmission == test::approx(way.ray.transmission).epsilon(1e-4));
   }
 }

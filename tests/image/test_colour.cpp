@@ -6,6 +6,7 @@
 
 #include "contrejour/expert/colour.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -44,7 +45,7 @@ TEST_CASE("chromaticities of the standard illuminants are the CIE's") {
 TEST_CASE("spectral power is 1 at 560 nm and the embedded tables are the CIE's") {
   for (const Spectrum& s :
        {Spectrum(IlluminantD65{}), Spectrum(IlluminantA{}), Spectrum(BlackBody{500}), Spectrum(BlackBody{100000})})
-    CHECK(spectral_power(s, 560) == doctest::Approx(1).epsilon(1e-12));
+    CHECK(spectral_power(s, 560) == test::approx(1).epsilon(1e-12));
   CHECK(spectral_power(IlluminantD65{}, 299) == 0);
   CHECK(spectral_power(IlluminantD65{}, 831) == 0);
   CHECK(colour_matching(359)[1] == 0);
@@ -52,8 +53,7 @@ TEST_CASE("spectral power is 1 at 560 nm and the embedded tables are the CIE's")
 
   if (const auto file = test::shared_data("colour/cie/CIE_xyz_1931_2deg.csv"))
     for (const auto& row : rows_of(*file))
-      for (std::size_t c = 0; c < 3; ++c)
-        CHECK(colour_matching(row[0])[c] == doctest::Approx(row[c + 1]).epsilon(1e-9));
+      for (std::size_t c = 0; c < 3; ++c) CHECK(colour_matching(row[0])[c] == test::approx(row[c + 1]).epsilon(1e-9));
   if (const auto file = test::shared_data("colour/cie/CIE_std_illum_D65.csv"))
     for (const auto& row : rows_of(*file))
       CHECK(std::abs(100 * spectral_power(IlluminantD65{}, row[0]) - row[1]) < 6e-4);  // its rounding
@@ -64,11 +64,11 @@ TEST_CASE("spectral power is 1 at 560 nm and the embedded tables are the CIE's")
 TEST_CASE("D65 is white in both spaces and conversion goes both ways") {
   for (const ColourSpace space : {ColourSpace::Rec709, ColourSpace::AcesCg}) {
     const Rgb white = rgb_of(IlluminantD65{}, space);
-    for (const double value : white) CHECK(value == doctest::Approx(1).epsilon(1e-12));
+    for (const double value : white) CHECK(value == test::approx(1).epsilon(1e-12));
     const Rgb rgb{0.2, 0.7, 1.9};
     const Rgb back = rgb_from_xyz(xyz_from_rgb(rgb, space), space);
-    for (std::size_t c = 0; c < 3; ++c) CHECK(back[c] == doctest::Approx(rgb[c]).epsilon(1e-12));
-    CHECK(luminance(rgb_of(BlackBody{2000}, space), space) == doctest::Approx(1).epsilon(1e-12));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(back[c] == test::approx(rgb[c]).epsilon(1e-12));
+    CHECK(luminance(rgb_of(BlackBody{2000}, space), space) == test::approx(1).epsilon(1e-12));
   }
 }
 

@@ -26,6 +26,7 @@
 
 #include "contrejour/expert/metrics.h"
 #include "shared_data.h"
+#include "support/approx.h"
 #include "test_pictures.h"
 
 using namespace contrejour;
@@ -201,7 +202,7 @@ TEST_CASE("grey pictures, layers, integer colours") {
   const Picture back = must_read(folder / "grey2.exr");
   CHECK(back.channels.size() == 2);
   CHECK(back.rgb.at(0, 0, 1) == 2);
-  CHECK(back.rgb.at(1, 0, 0) == doctest::Approx(0.7152).epsilon(1e-3));
+  CHECK(back.rgb.at(1, 0, 0) == test::approx(0.7152).epsilon(1e-3));
 
   GivenFile(header, {{"key.R", Imf::FLOAT},
                      {"key.G", Imf::FLOAT},
@@ -288,7 +289,7 @@ TEST_CASE("luminance and chroma are read as OpenEXR reads them, and come back as
   write_luminance_chroma(folder / "yc.exr", 96, 64);
   const Picture picture = must_read(folder / "yc.exr");
   CHECK(picture.rgb.pixels == rgb_by_openexr(folder / "yc.exr").pixels);
-  CHECK(picture.rgb.at(9, 9, 1) == doctest::Approx(0.1 * (0.5 + 0.3 * 9 / 64)).epsilon(2e-2));
+  CHECK(picture.rgb.at(9, 9, 1) == test::approx(0.1 * (0.5 + 0.3 * 9 / 64)).epsilon(2e-2));
   must_write(folder / "out.exr", picture);
   const Picture out = must_read(folder / "out.exr");
   check_same_channels(picture, out);
@@ -313,7 +314,7 @@ TEST_CASE("what is added to luminance and chroma is there for other programs, an
     const auto comparison = compare(wanted, got);
     REQUIRE(comparison.has_value());
     CHECK(comparison->psnr_db.value_or(200) > 50);
-    for (const double ratio : comparison->flux_ratio) CHECK(ratio == doctest::Approx(1).epsilon(2e-3));
+    for (const double ratio : comparison->flux_ratio) CHECK(ratio == test::approx(1).epsilon(2e-3));
     const Picture after = must_read(folder / "out.exr");
     CHECK(channel(after, "A").samples == channel(before, "A").samples);
     int kept = 0;
@@ -349,9 +350,9 @@ TEST_CASE("a light on black luminance and chroma has its colour") {
   picture.rgb.at(80, 10, 0) = std::numeric_limits<float>::infinity();
   must_write(folder / "out.exr", picture);
   const Image got = rgb_by_openexr(folder / "out.exr");
-  CHECK(got.at(40, 24, 0) == doctest::Approx(0.8).epsilon(0.01));
-  CHECK(got.at(40, 24, 1) == doctest::Approx(0.4).epsilon(0.01));
-  CHECK(got.at(40, 24, 2) == doctest::Approx(0.1).epsilon(0.05));
+  CHECK(got.at(40, 24, 0) == test::approx(0.8).epsilon(0.01));
+  CHECK(got.at(40, 24, 1) == test::approx(0.4).epsilon(0.01));
+  CHECK(got.at(40, 24, 2) == test::approx(0.1).epsilon(0.05));
   CHECK(got.at(5, 60, 0) == 0);
 }
 
@@ -410,7 +411,7 @@ TEST_CASE("new images, colour space and text") {
   CHECK(colour_space_of(back) == ColourSpace::AcesCg);
   CHECK(text_attribute(back, "comments") == "made by a test");
   CHECK(back.data_window == PixelWindow{100, 0, 3, 2});
-  CHECK(back.rgb.at(1, 1, 0) == doctest::Approx(image.at(1, 1, 0)).epsilon(1e-3));
+  CHECK(back.rgb.at(1, 1, 0) == test::approx(image.at(1, 1, 0)).epsilon(1e-3));
 
   REQUIRE(write_exr(folder / "one.exr", Image(4, 4, 1)).has_value());
   CHECK(must_read(folder / "one.exr").channels.size() == 1);

@@ -7,6 +7,7 @@
 #include "contrejour/expert/light_detection.h"
 #include "contrejour/image_io.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -60,10 +61,10 @@ TEST_CASE("known lights are found where they are, with their flux and size") {
   CHECK(lamp.min_y == 10);
   CHECK(lamp.max_y == 15);
   CHECK(lamp.peak == 50);
-  CHECK(lamp.rms_radius_px == doctest::Approx(std::sqrt((16.0 + 36) / 12)));  // of a 4 x 6 rectangle
+  CHECK(lamp.rms_radius_px == test::approx(std::sqrt((16.0 + 36) / 12)));  // of a 4 x 6 rectangle
   CHECK(found.lights[1].centroid_px == Vec2{80.5, 40.5});
   CHECK(found.lights[1].flux == Rgb{0, 0, 300});
-  CHECK(found.lights[1].rms_radius_px == doctest::Approx(std::sqrt(1.0 / 6)));
+  CHECK(found.lights[1].rms_radius_px == test::approx(std::sqrt(1.0 / 6)));
 }
 
 TEST_CASE("areas connect over corners and round bends, and only so") {
@@ -89,7 +90,7 @@ TEST_CASE("the threshold is soft: a light fades in, and above the ramp counts in
     CHECK(flux - std::max(last, 0.0) < 1.5);  // a hard threshold would jump by 10
     last = flux;
     if (level <= 10) CHECK(flux == 0);
-    if (level >= 12.5) CHECK(flux == doctest::Approx(level));
+    if (level >= 12.5) CHECK(flux == test::approx(level));
   }
   DetectionSettings hard = above(10);
   hard.softness = 0;
@@ -110,7 +111,7 @@ TEST_CASE("the tail is merged without losing flux") {
     REQUIRE(merged.lights.size() == static_cast<std::size_t>(largest));
     CHECK(merged.areas_found == whole.areas_found);
     const Rgb sum = sum_of(merged.lights), expected = sum_of(whole.lights);
-    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(expected[c]).epsilon(1e-9));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == test::approx(expected[c]).epsilon(1e-9));
     // The first moment is preserved as well.
     Vec2 moment{}, moment_expected{};
     int areas = 0;
@@ -119,8 +120,8 @@ TEST_CASE("the tail is merged without losing flux") {
       areas += l.merged_areas;
     }
     for (const auto& l : whole.lights) moment_expected = moment_expected + l.flux[0] * l.centroid_px;
-    CHECK(moment.x == doctest::Approx(moment_expected.x).epsilon(1e-9));
-    CHECK(moment.y == doctest::Approx(moment_expected.y).epsilon(1e-9));
+    CHECK(moment.x == test::approx(moment_expected.x).epsilon(1e-9));
+    CHECK(moment.y == test::approx(moment_expected.y).epsilon(1e-9));
     CHECK(areas == whole.areas_found);
     for (std::size_t i = 1; i < merged.lights.size(); ++i)
       CHECK(merged.lights[i - 1].flux[0] >= merged.lights[i].flux[0]);
@@ -141,9 +142,9 @@ TEST_CASE("a shifted picture has shifted lights and the same fluxes") {
   REQUIRE(a.size() > 5);
   for (std::size_t i = 0; i < a.size(); ++i) {
     CHECK(b[i].flux == a[i].flux);
-    CHECK(b[i].centroid_px.x - a[i].centroid_px.x == doctest::Approx(13).epsilon(1e-12));
-    CHECK(b[i].centroid_px.y - a[i].centroid_px.y == doctest::Approx(-7).epsilon(1e-12));
-    CHECK(b[i].rms_radius_px == doctest::Approx(a[i].rms_radius_px).epsilon(1e-9));
+    CHECK(b[i].centroid_px.x - a[i].centroid_px.x == test::approx(13).epsilon(1e-12));
+    CHECK(b[i].centroid_px.y - a[i].centroid_px.y == test::approx(-7).epsilon(1e-12));
+    CHECK(b[i].rms_radius_px == test::approx(a[i].rms_radius_px).epsilon(1e-9));
     CHECK(b[i].min_x == a[i].min_x + 13);
   }
 }
@@ -162,7 +163,7 @@ TEST_CASE("a light that moves by a tenth of a pixel moves by a tenth of a pixel"
     const Detection found = detect_lights(image, above(4)).value();
     REQUIRE(found.lights.size() == 1);
     CHECK(std::abs(found.lights[0].centroid_px.x - cx) < 0.02);
-    CHECK(found.lights[0].flux[0] == doctest::Approx(100 * 8 * std::numbers::pi).epsilon(0.06));
+    CHECK(found.lights[0].flux[0] == test::approx(100 * 8 * std::numbers::pi).epsilon(0.06));
     if (step > 0) CHECK(std::abs(found.lights[0].centroid_px.x - last_x - 0.1) < 0.02);
     last_x = found.lights[0].centroid_px.x;
   }
@@ -256,7 +257,7 @@ TEST_CASE("in the sample photographs: the flame, the lamps, and no paper") {
     const Detection found = detect_lights(read_picture(*file).value().rgb, {}).value();
     CHECK(found.source == ThresholdSource::None);
     CHECK(found.lights.empty());
-    CHECK(found.brightest == doctest::Approx(0.9663).epsilon(1e-3));
+    CHECK(found.brightest == test::approx(0.9663).epsilon(1e-3));
     CHECK(found.brightest_px.x > 0.0);
   }
 }
@@ -269,9 +270,9 @@ TEST_CASE("a window or a sky without a gap to what it lights: what is within two
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(100.0 * std::exp2(-0.06 * x));
   const Detection found = detect_lights(image, {}).value();
   CHECK(found.source == ThresholdSource::Brightest);
-  CHECK(found.threshold == doctest::Approx(25.0).epsilon(0.05));
+  CHECK(found.threshold == test::approx(25.0).epsilon(0.05));
   REQUIRE(found.lights.size() == 1);
-  CHECK(found.lights[0].max_x == doctest::Approx(33).epsilon(0.05));
+  CHECK(found.lights[0].max_x == test::approx(33).epsilon(0.05));
   CHECK(found.brightest == 100.0);
   CHECK(found.brightest_px == Vec2{0.5, 0.5});
 
@@ -292,7 +293,7 @@ TEST_CASE("lights are looked for within regions alone, and there more keenly") {
   CHECK(dim.source == ThresholdSource::Region);
   REQUIRE(dim.lights.size() == 1);
   CHECK(dim.lights[0].centroid_px == Vec2{71.5, 41.5});
-  CHECK(dim.brightest == doctest::Approx(0.9));
+  CHECK(dim.brightest == test::approx(0.9));
   settings.regions.push_back({-5, -5, 11, 1000});  // half of the other light; the region extends beyond the border
   const Detection both = detect_lights(image, settings).value();
   CHECK(both.source == ThresholdSource::Gap);

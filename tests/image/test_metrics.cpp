@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/metrics.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -28,7 +29,7 @@ TEST_CASE("equal images have no PSNR") {
   CHECK_FALSE(c.psnr_db.has_value());
   CHECK(c.max_abs_error == 0);
   CHECK(c.flux_ratio == std::vector<double>{1, 1, 1});
-  CHECK(c.peak == doctest::Approx(0.999 * 29));  // between 28 and 29 as numpy.percentile interpolates
+  CHECK(c.peak == test::approx(0.999 * 29));  // between 28 and 29 as numpy.percentile interpolates
 }
 
 TEST_CASE("a known error gives a known PSNR") {
@@ -37,10 +38,10 @@ TEST_CASE("a known error gives a known PSNR") {
   b.at(1, 0, 2) += 3;  // one sample of 30
   const Comparison c = compare(a, b).value();
   const double peak = 0.999 * 29;
-  CHECK(c.psnr_db.value() == doctest::Approx(10 * std::log10(peak * peak / (9.0 / 30))).epsilon(1e-12));
+  CHECK(c.psnr_db.value() == test::approx(10 * std::log10(peak * peak / (9.0 / 30))).epsilon(1e-12));
   CHECK(c.max_abs_error == 3);
   CHECK(c.flux_ratio[0] == 1);
-  CHECK(c.flux_ratio[2] == doctest::Approx((155.0 + 3) / 155));
+  CHECK(c.flux_ratio[2] == test::approx((155.0 + 3) / 155));
 }
 
 TEST_CASE("what lies above the peak counts for the largest error only") {
@@ -63,7 +64,7 @@ TEST_CASE("what lies as far below zero, as colours beyond the gamut do, counts l
   b.at(3, 3, 0) = -150;
   CHECK_FALSE(compare(a, b).value().psnr_db.has_value());
   b.at(3, 3, 0) = 1;  // from one end to the other: two peaks
-  CHECK(compare(a, b).value().psnr_db.value() == doctest::Approx(10 * std::log10(3e4 / 4)).epsilon(1e-12));
+  CHECK(compare(a, b).value().psnr_db.value() == test::approx(10 * std::log10(3e4 / 4)).epsilon(1e-12));
 }
 
 TEST_CASE("a peak of 0 falls back to the largest value") {
@@ -86,7 +87,7 @@ TEST_CASE("NaN and infinity are left out, and counted where they differ") {
   b.at(4, 1, 2) = 29;
   const Comparison c = compare(a, b).value();
   CHECK(c.non_finite_mismatches == 1);
-  CHECK(c.psnr_db.value() == doctest::Approx(10 * std::log10(30.0)));
+  CHECK(c.psnr_db.value() == test::approx(10 * std::log10(30.0)));
   CHECK(c.max_abs_error == 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A light that moves while the shutter is open: the place, the width and the speed of its streak.
 #include "contrejour/expert/moving_light.h"
+#include "support/approx.h"
 
 #include <cmath>
 #include <vector>
@@ -42,8 +43,8 @@ TEST_CASE("tangents between directions are the inverse of an offset") {
   for (const Vec3 from : {Vec3{0, 0, 1}, kLight.direction, direction_from_angles(-1.2, 0.9)})
     for (const Vec2 tangents : {Vec2{0, 0}, Vec2{0.3, -0.2}, Vec2{-1e-6, 0.9}}) {
       const Vec2 back = tangents_between(from, offset_direction(from, tangents));
-      CHECK(back.x == doctest::Approx(tangents.x).epsilon(1e-12));
-      CHECK(back.y == doctest::Approx(tangents.y).epsilon(1e-12));
+      CHECK(back.x == test::approx(tangents.x).epsilon(1e-12));
+      CHECK(back.y == test::approx(tangents.y).epsilon(1e-12));
     }
 }
 
@@ -68,9 +69,9 @@ TEST_CASE("where a light is slow its streak is bright") {
   const Light moved = swept_light(kLight, path);
   REQUIRE(moved.shape);
   const Vec2 in_time = tangents_between(kLight.direction, moved.direction);
-  CHECK(in_time.x == doctest::Approx(-0.01 / 3).epsilon(1e-9));
+  CHECK(in_time.x == test::approx(-0.01 / 3).epsilon(1e-9));
   // Its mean over time: three quarters at -0.005, a quarter at 0.005.
-  CHECK(in_time.x + moments_of(moved).mean.x == doctest::Approx(-0.0025).epsilon(0.01));
+  CHECK(in_time.x + moments_of(moved).mean.x == test::approx(-0.0025).epsilon(0.01));
 }
 
 TEST_CASE("a disc is swept along the path") {
@@ -82,19 +83,19 @@ TEST_CASE("a disc is swept along the path") {
   CHECK(check_extent(moved));
   const Moments moments = moments_of(moved);
   const double disc_square = std::pow(std::tan(0.004), 2.0) / 4.0;
-  CHECK(moments.mean_square.x == doctest::Approx(1e-4 / 3.0 + disc_square).epsilon(0.01));
-  CHECK(moments.mean_square.y == doctest::Approx(disc_square).epsilon(0.03));
+  CHECK(moments.mean_square.x == test::approx(1e-4 / 3.0 + disc_square).epsilon(0.01));
+  CHECK(moments.mean_square.y == test::approx(disc_square).epsilon(0.03));
 }
 
 TEST_CASE("a curve lies where its segments do, and a path back is the path there") {
   const std::vector<Vec3> bend{at(-0.01, 0), at(0, 0), at(0, 0.01)};
   const Moments bent = moments_of(swept_light(kLight, bend));
-  CHECK(bent.mean.x == doctest::Approx(-0.0025).epsilon(0.01));
-  CHECK(bent.mean.y == doctest::Approx(0.0025).epsilon(0.01));
+  CHECK(bent.mean.x == test::approx(-0.0025).epsilon(0.01));
+  CHECK(bent.mean.y == test::approx(0.0025).epsilon(0.01));
   const Light to_and_fro = swept_light(kLight, std::vector{at(0.01, 0), at(-0.01, 0), at(0.01, 0)});
   REQUIRE(to_and_fro.shape);
   CHECK(length(to_and_fro.direction - at(-0.01, 0)) < 1e-12);
-  CHECK(moments_of(to_and_fro).mean.x == doctest::Approx(0.01).epsilon(0.01));
+  CHECK(moments_of(to_and_fro).mean.x == test::approx(0.01).epsilon(0.01));
 }
 
 TEST_CASE("a light that hardly moves stays as it is") {

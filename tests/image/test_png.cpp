@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "contrejour/expert/metrics.h"
+#include "support/approx.h"
 #include "test_pictures.h"
 
 using namespace contrejour;
@@ -122,7 +123,7 @@ TEST_CASE("light that is added where a picture is transparent is in its PNG") {
   must_write(folder / "a.png", must_read(folder / "a.exr"));
   const Picture png = must_read(folder / "a.png");
   const std::vector<float> seen{0.5F, 0.25F, 0, 1, 1, 0, 0.25F, 0.25F, 0.25F};
-  for (std::size_t k = 0; k < seen.size(); ++k) CHECK(png.rgb.pixels[k] == doctest::Approx(seen[k]).epsilon(1e-4));
+  for (std::size_t k = 0; k < seen.size(); ++k) CHECK(png.rgb.pixels[k] == test::approx(seen[k]).epsilon(1e-4));
   std::uint16_t alpha[3];
   std::memcpy(alpha, channel(png, "A").samples.data(), sizeof alpha);
   CHECK(alpha[0] == 32768);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/colour.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -86,7 +87,7 @@ TEST_CASE("one band stands at the light's visible centroid") {
     total += s;
   }
   const auto bands = spectral_bands(1, IlluminantD65{}, ColourSpace::Rec709);
-  CHECK(bands[0].lambda_nm == doctest::Approx(moment / total).epsilon(1e-5));
+  CHECK(bands[0].lambda_nm == test::approx(moment / total).epsilon(1e-5));
   CHECK(bands[0].weight == Rgb{1, 1, 1});
 }
 

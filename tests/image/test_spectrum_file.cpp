@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/spectrum_file.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -90,8 +91,8 @@ TEST_CASE("a line keeps its power and position wherever it falls between whole n
       power += spectral_power_near(spectrum, nm);
       moment += nm * spectral_power_near(spectrum, nm);
     }
-    CHECK(power == doctest::Approx(1.0).epsilon(1e-6));  // 0.02 nm at 50 in the mean
-    CHECK(moment / power == doctest::Approx(line_nm).epsilon(1e-8));
+    CHECK(power == test::approx(1.0).epsilon(1e-6));  // 0.02 nm at 50 in the mean
+    CHECK(moment / power == test::approx(line_nm).epsilon(1e-8));
   }
 }
 
@@ -104,9 +105,9 @@ TEST_CASE("a table of a smooth spectrum is that spectrum") {
     const auto expected = spectral_bands(7, IlluminantA{}, space);
     const auto bands = spectral_bands(7, table, space);
     for (std::size_t k = 0; k < bands.size(); ++k) {
-      CHECK(bands[k].lambda_nm == doctest::Approx(expected[k].lambda_nm).epsilon(1e-4));
+      CHECK(bands[k].lambda_nm == test::approx(expected[k].lambda_nm).epsilon(1e-4));
       for (std::size_t c = 0; c < 3; ++c)
-        CHECK(bands[k].weight[c] == doctest::Approx(expected[k].weight[c]).epsilon(1e-2));
+        CHECK(bands[k].weight[c] == test::approx(expected[k].weight[c]).epsilon(1e-2));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "lens_capture.h"
 #include "measure/prescription/lens_numbers.h"
 #include "measure/prescription/traced_figures.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::testing;
@@ -46,9 +47,9 @@ TEST_CASE("lens numbers: a body is tilted as a file's group is, and gaps move wh
   values[index_of(adjustable.numbers, LearntKind::Focus)] = -0.1;
   values[index_of(adjustable.numbers, LearntKind::StopRadius)] = 0.02;
   const LensState state = *adjustable.state(values);
-  CHECK(state.surfaces.back().z_mm == doctest::Approx(adjustable.nominal.surfaces.back().z_mm + 0.25));
-  CHECK(state.sensor_z_mm == doctest::Approx(adjustable.nominal.sensor_z_mm + 0.15));
-  CHECK(state.stop_radius_mm == doctest::Approx(1.02 * adjustable.nominal.stop_radius_mm));
+  CHECK(state.surfaces.back().z_mm == test::approx(adjustable.nominal.surfaces.back().z_mm + 0.25));
+  CHECK(state.sensor_z_mm == test::approx(adjustable.nominal.sensor_z_mm + 0.15));
+  CHECK(state.stop_radius_mm == test::approx(1.02 * adjustable.nominal.stop_radius_mm));
 }
 
 TEST_CASE("adjust lens: a tilt of 0.1 degrees and an air space and a focus shift are found [slow]") {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/capture.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -66,9 +67,9 @@ TEST_CASE("capture: exposures have the noise of photons and of reading") {
     const double mean = std::accumulate(frame->dn.begin(), frame->dn.end(), 0.0) / count;
     double variance = 0.0;
     for (const std::uint16_t dn : frame->dn) variance += (dn - mean) * (dn - mean) / count;
-    CHECK(mean - sensor.black_dn == doctest::Approx(100.0 * time_s).epsilon(0.01));
+    CHECK(mean - sensor.black_dn == test::approx(100.0 * time_s).epsilon(0.01));
     const double electrons = 100.0 * time_s * 0.5;
-    CHECK(variance == doctest::Approx((electrons + 9.0) / 0.25 + 1.0 / 12.0).epsilon(0.03));
+    CHECK(variance == test::approx((electrons + 9.0) / 0.25 + 1.0 / 12.0).epsilon(0.03));
   }
 }
 
@@ -83,7 +84,7 @@ TEST_CASE("capture: merged rates are right within their variance, for every Baye
     CHECK(merged->rate.width == 64);
     const Agreement found = agreement(*merged, rate);
     CHECK(std::abs(found.mean_error) < 4.0);
-    CHECK(found.chi_squared == doctest::Approx(1.0).epsilon(0.05));
+    CHECK(found.chi_squared == test::approx(1.0).epsilon(0.05));
     CHECK(found.valid > 0.9);
   }
 }
@@ -118,7 +119,7 @@ TEST_CASE("capture: a room that is not quite dark is subtracted") {
   const auto merged = merge_exposures(exposed(lit), background);
   REQUIRE(merged.has_value());
   const Agreement found = agreement(*merged, rate);
-  CHECK(found.chi_squared == doctest::Approx(1.0).epsilon(0.1));
+  CHECK(found.chi_squared == test::approx(1.0).epsilon(0.1));
   CHECK(std::abs(found.mean_error) < 4.0);
   CHECK(agreement(*merge_exposures(exposed(lit), {}), rate).chi_squared > 20.0);
 }
@@ -134,7 +135,7 @@ TEST_CASE("capture: an exposure with a cloud before the lamp is recognised and l
     REQUIRE(merged.has_value());
     REQUIRE(merged->warnings.size() == 1);
     CHECK(merged->warnings[0].find("left out") != std::string::npos);
-    CHECK(agreement(*merged, rate).chi_squared == doctest::Approx(1.0).epsilon(0.1));
+    CHECK(agreement(*merged, rate).chi_squared == test::approx(1.0).epsilon(0.1));
   }
 }
 

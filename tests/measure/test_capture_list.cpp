@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/merge_stations.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -111,7 +112,7 @@ TEST_CASE("capture list: the light's flux, wherever its image lies and whatever 
       CHECK(length(flux->position_px - centre * 0.5) < 0.15);
       const double area = std::numbers::pi * radius * radius / 4.0;  // of merged pixels
       for (std::size_t c = 0; c < 3; ++c)
-        CHECK(flux->rate[c] == doctest::Approx(1e6 * static_cast<double>(c + 1) * area).epsilon(0.05));
+        CHECK(flux->rate[c] == test::approx(1e6 * static_cast<double>(c + 1) * area).epsilon(0.05));
     }
   }
   CHECK(!direct_flux(light_frame({40.0, 30.0}, 3.0, 1e9, 0.004)));  // saturated
@@ -154,5 +155,5 @@ TEST_CASE("capture list: stations merge alike for any number at once; a broken o
   const auto one = run(1), three = run(3);
   CHECK(one == three);
   CHECK(one.size() == 4);
-  CHECK(one.at(5) == doctest::Approx(500.0).epsilon(0.1));
+  CHECK(one.at(5) == test::approx(500.0).epsilon(0.1));
 }

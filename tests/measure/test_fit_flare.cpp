@@ -12,6 +12,7 @@
 #include "contrejour/expert/fit_comparison.h"
 #include "contrejour/expert/fit_flare.h"
 #include "contrejour/expert/sweep.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -89,8 +90,8 @@ TEST_CASE("fit flare: the Tessar's bright ghost is found and fitted, and the opt
   REQUIRE(fit->found.size() == 1);
   const MeasuredGhost& ghost = fit->flare.ghosts[1];
   // Read off the exact renderer's pictures of 320 pixels, to 1 and 2 per cent.
-  CHECK(ghost.centre.derivative(0.0) == doctest::Approx(-1.09).epsilon(0.03));
-  CHECK(ghost.half_height(0.0) == doctest::Approx(0.0358).epsilon(0.05));
+  CHECK(ghost.centre.derivative(0.0) == test::approx(-1.09).epsilon(0.03));
+  CHECK(ghost.half_height(0.0) == test::approx(0.0358).epsilon(0.05));
   const double centre = 0.25 * 320 + 0.5 * capture.settings.centre_offset_px.x;
   CHECK(std::abs(fit->centre_px.x - centre) < 0.1);
   CHECK(std::abs(fit->centre_px.y - (0.25 * 214 + 0.5 * capture.settings.centre_offset_px.y)) < 0.1);
@@ -115,7 +116,7 @@ TEST_CASE("fit comparison: from one start, both costs fall, and every picture is
       compare_with_walch(capture.sweep(), capture.geometry, std::span(&disc, 1), capture.geometry.centre_px, settings);
   REQUIRE_MESSAGE(both.has_value(), both.error().to_string());
   CHECK(both->ours.front().cost == both->walch.front().cost);
-  CHECK(both->ours.front().cost == doctest::Approx(both->ours.front().mse + both->ours.front().edges));
+  CHECK(both->ours.front().cost == test::approx(both->ours.front().mse + both->ours.front().edges));
   CHECK(both->ours.back().cost < 0.8 * both->ours.front().cost);
   CHECK(both->walch.back().cost < both->walch.front().cost);
   const double stations = 5.0;
@@ -153,7 +154,7 @@ TEST_CASE("fit flare: angles with the sign swapped give the same flare [slow]") 
   CHECK(as_is->warnings.empty());
   REQUIRE(fit->warnings.size() == 1);
   CHECK(fit->warnings[0].find("sign is swapped") != std::string::npos);
-  CHECK(fit->flare.ghosts.back().centre(0.1) == doctest::Approx(as_is->flare.ghosts.back().centre(0.1)).epsilon(1e-6));
+  CHECK(fit->flare.ghosts.back().centre(0.1) == test::approx(as_is->flare.ghosts.back().centre(0.1)).epsilon(1e-6));
 }
 
 TEST_CASE("fit flare: a core that every exposure saturates is left out, said if it is large, and survived [slow]") {

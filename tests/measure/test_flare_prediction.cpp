@@ -10,6 +10,7 @@
 #include "contrejour/expert/flare_prediction.h"
 #include "contrejour/expert/panorama.h"
 #include "contrejour/expert/trace.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -49,13 +50,13 @@ TEST_CASE("prediction: figures of the flare alone") {
   const Image flare = image_of(2, 2, {0.0, 1.0, 4.0, 16.0});
   const auto figures = figures_of(flare, {.white = 10.0, .covered_level = 0.2});
   REQUIRE(figures.has_value());
-  CHECK(figures->minimum == doctest::Approx(0.0));
-  CHECK(figures->maximum == doctest::Approx(16.0));
-  CHECK(figures->sum == doctest::Approx(21.0));
-  CHECK(figures->mean == doctest::Approx(5.25));
+  CHECK(figures->minimum == test::approx(0.0));
+  CHECK(figures->maximum == test::approx(16.0));
+  CHECK(figures->sum == test::approx(21.0));
+  CHECK(figures->mean == test::approx(5.25));
   CHECK(figures->covered == 0.5);
   const double offset = 1e-5;
-  CHECK(figures->log_average == doctest::Approx(std::pow(offset * 64.0, 0.25)).epsilon(1e-3));
+  CHECK(figures->log_average == test::approx(std::pow(offset * 64.0, 0.25)).epsilon(1e-3));
   CHECK(!figures_of(Image(0, 0)));
   CHECK(!figures_of(Image(2, 2, 1)));
   CHECK(!figures_of(flare, {.white = 0.0}));
@@ -64,7 +65,7 @@ TEST_CASE("prediction: figures of the flare alone") {
 TEST_CASE("prediction: samples that are not finite are left out") {
   Image flare = image_of(2, 2, {1.0, 1.0, 1.0, 1.0});
   flare.at(0, 0, 1) = std::nanf("");
-  CHECK(figures_of(flare)->sum == doctest::Approx(3.0));
+  CHECK(figures_of(flare)->sum == test::approx(3.0));
 }
 
 TEST_CASE("prediction: even flare of level f leaves a contrast of 1 / (1 + 2 f) between black and white") {
@@ -74,12 +75,12 @@ TEST_CASE("prediction: even flare of level f leaves a contrast of 1 / (1 + 2 f) 
   for (const double f : {0.0, 0.01, 0.3}) {
     const auto figures = figures_on(scene, image_of(20, 10, std::vector<double>(200, f)));
     REQUIRE(figures.has_value());
-    CHECK(figures->contrast_without == doctest::Approx(1.0));
-    CHECK(figures->contrast_with == doctest::Approx(1.0 / (1.0 + 2.0 * f)));
-    CHECK(figures->contrast_kept == doctest::Approx(1.0 / (1.0 + 2.0 * f)));
+    CHECK(figures->contrast_without == test::approx(1.0));
+    CHECK(figures->contrast_with == test::approx(1.0 / (1.0 + 2.0 * f)));
+    CHECK(figures->contrast_kept == test::approx(1.0 / (1.0 + 2.0 * f)));
     const double scene_log = std::sqrt(1e-6 * (1.0 + 1e-6));
-    CHECK(figures->log_average_ratio == doctest::Approx(scene_log / (f + 1e-6)).epsilon(1e-4));
-    CHECK(figures->brightening == doctest::Approx(std::sqrt((f + 1e-6) * (1.0 + f)) / scene_log).epsilon(1e-4));
+    CHECK(figures->log_average_ratio == test::approx(scene_log / (f + 1e-6)).epsilon(1e-4));
+    CHECK(figures->brightening == test::approx(std::sqrt((f + 1e-6) * (1.0 + f)) / scene_log).epsilon(1e-4));
   }
   CHECK(!figures_on(scene, Image(10, 20)));
 }
@@ -87,24 +88,24 @@ TEST_CASE("prediction: even flare of level f leaves a contrast of 1 / (1 + 2 f) 
 TEST_CASE("prediction: transmission is over the direct image's level, attenuation its inverse") {
   const Frame frame{100, 50, 0, 0, 100, 50, 0.01};
   const double radius_rad = std::atan(0.05 / 20.0);  // 0.05 mm at 20 mm: 5 pixels
-  CHECK(*direct_level(500.0, radius_rad, frame, 20.0) == doctest::Approx(500.0 / (25.0 * std::numbers::pi)));
+  CHECK(*direct_level(500.0, radius_rad, frame, 20.0) == test::approx(500.0 / (25.0 * std::numbers::pi)));
   CHECK(!direct_level(500.0, 0.0, frame, 20.0));
   const Image flare = image_of(20, 10, std::vector<double>(200, 0.02));
   const auto glare = glare_of(flare, 40.0, ColourSpace::Rec709);
   REQUIRE(glare.has_value());
-  CHECK(glare->mean_transmission == doctest::Approx(5e-4));
-  CHECK(glare->peak_transmission == doctest::Approx(5e-4));
-  CHECK(glare->mean_attenuation == doctest::Approx(2000.0));
+  CHECK(glare->mean_transmission == test::approx(5e-4));
+  CHECK(glare->peak_transmission == test::approx(5e-4));
+  CHECK(glare->mean_attenuation == test::approx(2000.0));
   CHECK(std::isinf(glare_of(Image(4, 4), 1.0, ColourSpace::Rec709)->least_attenuation));
   CHECK(!glare_of(flare, 0.0, ColourSpace::Rec709));
 }
 
 TEST_CASE("prediction: a rating says where a value lies among others") {
   const std::vector<double> others{1.0, 2.0, 2.0, 5.0};
-  CHECK(rating_of(2.0, others)->in_range == doctest::Approx(0.25));
-  CHECK(rating_of(2.0, others)->rank == doctest::Approx(0.5));
-  CHECK(rating_of(5.0, others)->in_range == doctest::Approx(1.0));
-  CHECK(rating_of(6.0, others)->rank == doctest::Approx(1.0));
+  CHECK(rating_of(2.0, others)->in_range == test::approx(0.25));
+  CHECK(rating_of(2.0, others)->rank == test::approx(0.5));
+  CHECK(rating_of(5.0, others)->in_range == test::approx(1.0));
+  CHECK(rating_of(6.0, others)->rank == test::approx(1.0));
   CHECK(rating_of(1.0, std::vector<double>{1.0, 1.0})->in_range == 0.0);
   CHECK(!rating_of(1.0, {}));
 }
@@ -114,13 +115,13 @@ TEST_CASE("prediction: a measured flare is drawn where a lens would draw it") {
   CHECK(!is_measured_flare("b.toml"));
   const MeasuredFlare flare = disc_flare(1.0);  // its ghost lies over the light
   const Frame frame = frame_on_sensor(ideal_lens_of(flare), 120, 80);
-  CHECK(frame.pixel_pitch_mm == doctest::Approx(0.01));
+  CHECK(frame.pixel_pitch_mm == test::approx(0.01));
   Light light;
   light.direction = direction_from_angles(15.0 * kRadian, 8.0 * kRadian);
   light.value = {3.0, 3.0, 3.0};
   const auto drawn = render(flare, std::span(&light, 1), frame);
   REQUIRE(drawn.has_value());
-  CHECK(total(drawn->image) == doctest::Approx(0.03 * std::numbers::pi).epsilon(0.01));
+  CHECK(total(drawn->image) == test::approx(0.03 * std::numbers::pi).epsilon(0.01));
   const Vec3 d = light.direction;
   const Vec2 at = frame.pixel_from_sensor({d.x / d.z, d.y / d.z});
   CHECK(at.x > 60.0);  // right of the middle
@@ -140,12 +141,12 @@ TEST_CASE("prediction: the ideal lens maps directions to points and back") {
   const LensState ideal = ideal_lens_of(disc_flare(1.0));
   const Vec3 direction = direction_from_angles(20.0 * kRadian, -10.0 * kRadian);
   const Vec2 at = chief_ray_image_point(ideal, direction, 550.0);
-  CHECK(at.x == doctest::Approx(direction.x / direction.z));
-  CHECK(at.y == doctest::Approx(direction.y / direction.z));
+  CHECK(at.x == test::approx(direction.x / direction.z));
+  CHECK(at.y == test::approx(direction.y / direction.z));
   const Vec3 back = direction_for_image_point(ideal, at, 550.0);
-  CHECK(back.x == doctest::Approx(direction.x));
-  CHECK(back.y == doctest::Approx(direction.y));
-  CHECK(back.z == doctest::Approx(direction.z));
+  CHECK(back.x == test::approx(direction.x));
+  CHECK(back.y == test::approx(direction.y));
+  CHECK(back.z == test::approx(direction.z));
 }
 
 TEST_CASE("prediction: lights beyond the measured angles are named") {
@@ -167,10 +168,10 @@ TEST_CASE("prediction: a map of a steady ghost is even, and falls to nothing bey
   REQUIRE(map.has_value());
   CHECK(map->is_quarter);
   CHECK(map->points.size() == 1 + 3 * 12);
-  CHECK(std::tan(map->to_rad) == doctest::Approx(0.6));
+  CHECK(std::tan(map->to_rad) == test::approx(0.6));
   for (const LightMapPoint& point : map->points) {
     const double left = std::clamp((0.6 - std::tan(point.angle_rad)) / 0.1, 0.0, 1.0);
-    CHECK(point.figures.flare.sum == doctest::Approx(0.01 * std::numbers::pi * left).epsilon(0.01));
+    CHECK(point.figures.flare.sum == test::approx(0.01 * std::numbers::pi * left).epsilon(0.01));
   }
   settings.angles = 1;
   CHECK(!map_lights(flare, settings));
@@ -196,7 +197,7 @@ TEST_CASE("prediction: the map of a lens is what single lights give, by symmetry
                        std::cos(20.0 * kRadian)};
     const auto flare = render(AdaptiveOptions{}, *lens, std::span(&light, 1), settings.frame);
     REQUIRE(flare.has_value());
-    CHECK(figures_of(flare->image)->sum == doctest::Approx(sums[4]).epsilon(0.02));
+    CHECK(figures_of(flare->image)->sum == test::approx(sums[4]).epsilon(0.02));
   }
   CHECK(sums[0] > 0.0);
   CHECK(map_lights(*lens, settings, {.threads = 1})->points[6].figures.flare.sum == sums[6]);
@@ -221,8 +222,8 @@ TEST_CASE("prediction: a panorama's light has the value that its view's pixels s
     const auto picture = view_of_panorama(panorama, view, frame, 18.0);
     REQUIRE(seen.size() == 1);
     REQUIRE(picture.has_value());
-    CHECK(total(*picture) == doctest::Approx(seen[0].value[1]).epsilon(0.01));
-    CHECK(seen[0].value[2] == doctest::Approx(1.5 * seen[0].value[1]).epsilon(1e-5));
+    CHECK(total(*picture) == test::approx(seen[0].value[1]).epsilon(0.01));
+    CHECK(seen[0].value[2] == test::approx(1.5 * seen[0].value[1]).epsilon(1e-5));
     const Vec3 d = seen[0].direction;
     CHECK(length(centroid(*picture) - frame.pixel_from_sensor(Vec2{d.x, d.y} * (18.0 / d.z))) < 1.0);
   }

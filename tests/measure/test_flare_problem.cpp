@@ -10,6 +10,7 @@
 #include "measure/fit/flare_fit_state.h"
 #include "measure/fit/flare_problem.h"
 #include "measure/random_ghosts.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using contrejour::test::random_cut_ghost;
@@ -81,7 +82,7 @@ TEST_CASE("flare problem: gradients agree with central differences to 1e-5") {
     }
     for (Eigen::Index k = 0; k < at.size(); ++k) at[k] *= 1.0 + 0.01 * std::sin(static_cast<double>(k));
     const NormalEquations equations = problem.equations(at);
-    CHECK(equations.cost == doctest::Approx(problem.cost(at)).epsilon(1e-12));
+    CHECK(equations.cost == test::approx(problem.cost(at)).epsilon(1e-12));
     const double scale = equations.gradient.cwiseProduct(at).cwiseAbs().maxCoeff();
     for (Eigen::Index k = 0; k < at.size(); ++k) {
       if (at[k] == 0.0) continue;
@@ -114,8 +115,8 @@ TEST_CASE("flare problem: a planted flare is found from a start beside it [slow]
   CHECK(fit.cost <= problem.cost(at));
   const MeasuredFlare found = problem.layout.unpack(truth, fit.parameters);
   for (std::size_t k = 0; k < 3; ++k) {
-    CHECK(found.ghosts[k].centre(0.4) == doctest::Approx(truth.ghosts[k].centre(0.4)).epsilon(0.005));
-    CHECK(found.ghosts[k].half_height(0.1) == doctest::Approx(truth.ghosts[k].half_height(0.1)).epsilon(0.01));
+    CHECK(found.ghosts[k].centre(0.4) == test::approx(truth.ghosts[k].centre(0.4)).epsilon(0.005));
+    CHECK(found.ghosts[k].half_height(0.1) == test::approx(truth.ghosts[k].half_height(0.1)).epsilon(0.01));
   }
 }
 

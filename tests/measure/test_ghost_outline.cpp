@@ -10,6 +10,7 @@
 #include "contrejour/expert/ghost_outline.h"
 #include "measure/model/outline_cubic.h"
 #include "measure/random_ghosts.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using contrejour::test::random_cut_outline;
@@ -82,7 +83,7 @@ TEST_CASE("ghost outline: a circle's distances are those from a circle") {
     const double angle = 2.0 * std::numbers::pi * k / 64.0;
     for (const double radius : {0.02, 0.08, 0.1, 0.13, 0.4}) {
       const Vec2 point{0.2 + radius * std::cos(angle), radius * std::sin(angle)};
-      CHECK(nearest_point(circle, point).distance == doctest::Approx(radius - 0.1).epsilon(3e-4).scale(0.1));
+      CHECK(nearest_point(circle, point).distance == test::approx(radius - 0.1).epsilon(3e-4).scale(0.1));
     }
   }
 }
@@ -93,7 +94,7 @@ TEST_CASE("ghost outline: distances agree with dense sampling, signs with windin
     const GhostOutline outline = random_outline(random);
     const Vec2 point = random_point(random, outline);
     const double distance = nearest_point(outline, point).distance;
-    CHECK(std::abs(distance) == doctest::Approx(sampled_distance(outline, point)).epsilon(1e-5).scale(0.1));
+    CHECK(std::abs(distance) == test::approx(sampled_distance(outline, point)).epsilon(1e-5).scale(0.1));
     if (std::abs(distance) > 1e-4) CHECK((distance < 0.0) == is_inside(outline, point));
   }
 }
@@ -111,7 +112,7 @@ TEST_CASE("ghost outline: a circle that cuts leaves what lies within both, at th
     const OutlinePoint nearest = nearest_point(outline, point);
     CHECK(nearest.distance == std::max(of_circle, of_outline));
     CHECK(nearest.is_on_clip == (of_circle > of_outline));
-    CHECK(length(nearest.normal) == doctest::Approx(1.0));
+    CHECK(length(nearest.normal) == test::approx(1.0));
     cut += of_circle > of_outline ? 1 : 0;
     inside += nearest.distance < 0.0 ? 1 : 0;
   }
@@ -136,7 +137,7 @@ TEST_CASE("ghost outline: the distance's gradient agrees with central difference
       if (more.is_on_clip != less.is_on_clip) continue;
       if (more.is_right != less.is_right || std::abs(more.t - less.t) > 1e-3) continue;
       const double difference = (more.distance - less.distance) / (2.0 * kStep);
-      CHECK(gradient[p] == doctest::Approx(difference).epsilon(1e-5).scale(1.0));
+      CHECK(gradient[p] == test::approx(difference).epsilon(1e-5).scale(1.0));
       ++compared;
     }
   }
@@ -158,8 +159,8 @@ TEST_CASE("ghost shade: a pixel's weights are means over its width") {
       inside += at.inside / kPoints;
     }
     const ShadeWeights mean = shade_weights(shade, distance, width);
-    CHECK(mean.border == doctest::Approx(border).epsilon(2e-3).scale(0.1));
-    CHECK(mean.inside == doctest::Approx(inside).epsilon(2e-3).scale(0.1));
+    CHECK(mean.border == test::approx(border).epsilon(2e-3).scale(0.1));
+    CHECK(mean.inside == test::approx(inside).epsilon(2e-3).scale(0.1));
   }
 }
 
@@ -173,10 +174,8 @@ TEST_CASE("ghost shade: derivatives agree with central differences to 1e-5") {
     const ShadeDerivatives d = shade_derivatives(shade, distance, width);
     const auto compare = [&](const ShadeWeights& more, const ShadeWeights& less, const ShadeWeights& derivative) {
       const double scale = 1.0 / width;
-      CHECK(derivative.border ==
-            doctest::Approx((more.border - less.border) / (2.0 * step)).epsilon(1e-5).scale(scale));
-      CHECK(derivative.inside ==
-            doctest::Approx((more.inside - less.inside) / (2.0 * step)).epsilon(1e-5).scale(scale));
+      CHECK(derivative.border == test::approx((more.border - less.border) / (2.0 * step)).epsilon(1e-5).scale(scale));
+      CHECK(derivative.inside == test::approx((more.inside - less.inside) / (2.0 * step)).epsilon(1e-5).scale(scale));
     };
     compare(shade_weights(shade, distance + step, width), shade_weights(shade, distance - step, width), d.by_distance);
     for (std::size_t p = 0; p < 4; ++p) {
@@ -189,8 +188,8 @@ TEST_CASE("ghost shade: derivatives agree with central differences to 1e-5") {
 TEST_CASE("ghost shade: a sharp border covers pixels by half where it crosses their middle") {
   const GhostShade sharp{0.0, 0.0, 1.0, 1.0};
   const ShadeWeights middle = shade_weights(sharp, 0.0, 0.01);
-  CHECK(middle.inside == doctest::Approx(0.5));
-  CHECK(middle.border == doctest::Approx(0.0));
-  CHECK(shade_weights(sharp, -0.01, 0.01).inside == doctest::Approx(1.0));
-  CHECK(shade_weights(sharp, 0.01, 0.01).inside == doctest::Approx(0.0));
+  CHECK(middle.inside == test::approx(0.5));
+  CHECK(middle.border == test::approx(0.0));
+  CHECK(shade_weights(sharp, -0.01, 0.01).inside == test::approx(1.0));
+  CHECK(shade_weights(sharp, 0.01, 0.01).inside == test::approx(0.0));
 }

@@ -7,6 +7,7 @@
 
 #include "contrejour/expert/ghost_profile.h"
 #include "measure/random_ghosts.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -26,7 +27,7 @@ TEST_CASE("ghost profile: terms are numbered by harmonic and ring") {
   for (std::size_t k = 0; k < kProfileTerms; ++k) CHECK(profile_index(profile_term(k)) == k);
   double area = 0.0;
   for (std::size_t k = 0; k < kProfileTerms; ++k) area += profile_mean(k);
-  CHECK(area == doctest::Approx(1.0));
+  CHECK(area == test::approx(1.0));
   CHECK(profile_term(kProfileTerms - 1).harmonic == kProfileHarmonics - 1);
 }
 
@@ -41,11 +42,11 @@ TEST_CASE("ghost profile: a constant is one, the centre has no direction, and th
   for (int k = 0; k < 50; ++k) {
     const GhostOutline outline = test::random_outline(random);
     const Vec2 point{outline.centre + 0.3 * unit(random), 0.3 * unit(random)};
-    CHECK(level_at(outline, point, constant) == doctest::Approx(3.0));
+    CHECK(level_at(outline, point, constant) == test::approx(3.0));
     CHECK(level_at(outline, {outline.centre, 0.0}, sided) == 0.0);
-    CHECK(level_at(outline, {outline.centre + outline.right, 0.0}, sided) == doctest::Approx(1.0));
-    CHECK(level_at(outline, {outline.centre - 2.0 * outline.left, 0.0}, sided) == doctest::Approx(-1.0));
-    CHECK(level_at(outline, {point.x, -point.y}, sided) == doctest::Approx(level_at(outline, point, sided)));
+    CHECK(level_at(outline, {outline.centre + outline.right, 0.0}, sided) == test::approx(1.0));
+    CHECK(level_at(outline, {outline.centre - 2.0 * outline.left, 0.0}, sided) == test::approx(-1.0));
+    CHECK(level_at(outline, {point.x, -point.y}, sided) == test::approx(level_at(outline, point, sided)));
   }
 }
 
@@ -64,8 +65,8 @@ TEST_CASE("ghost profile: derivatives by the place agree with central difference
     const ProfileWeights weights = profile_weights(outline, {x, y});
     Vec2 slope{};
     for (std::size_t i = 0; i < weights.term.size(); ++i) slope = slope + weights.by_place[i] * levels[weights.term[i]];
-    CHECK(slope.x == doctest::Approx((level_of(x + h, y) - level_of(x - h, y)) / (2.0 * h)).epsilon(1e-5));
-    CHECK(slope.y == doctest::Approx((level_of(x, y + h) - level_of(x, y - h)) / (2.0 * h)).epsilon(1e-5));
+    CHECK(slope.x == test::approx((level_of(x + h, y) - level_of(x - h, y)) / (2.0 * h)).epsilon(1e-5));
+    CHECK(slope.y == test::approx((level_of(x, y + h) - level_of(x, y - h)) / (2.0 * h)).epsilon(1e-5));
     ++checked;
   }
   CHECK(checked > 100);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "measure/fit/halo.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -46,7 +47,7 @@ TEST_CASE("halo: what moves with the light is subtracted, a ghost in it stays") 
   CHECK(first.weight.at(40, 37, 1) < first.weight.at(110, 37, 1));  // the halo's error counts
   for (int c = 0; c < 3; ++c) {
     const double level = halo_at(std::hypot(90.5 - 30.3, 42.5 - 37.8), c);
-    CHECK(static_cast<double>(first.rate.at(90, 42, c)) == doctest::Approx(50.0).epsilon(0.1 * level / 50.0));
+    CHECK(static_cast<double>(first.rate.at(90, 42, c)) == test::approx(50.0).epsilon(0.1 * level / 50.0));
   }
 }
 
@@ -63,9 +64,9 @@ TEST_CASE("halo: its level changes with the angle, and by a little from station 
   }
   const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
   CHECK(halo.scale(0.0) == 1.0);
-  for (const double s : {0.2, 0.4}) CHECK(halo.scale(s) == doctest::Approx(level_of(s, 1.0)).epsilon(0.01));
-  CHECK(halo_deviation(halo, stations[2], lights[2], 6.0) == doctest::Approx(1.02).epsilon(0.005));
-  CHECK(halo_deviation(halo, stations[5], lights[5], 6.0) == doctest::Approx(1.0).epsilon(0.005));
+  for (const double s : {0.2, 0.4}) CHECK(halo.scale(s) == test::approx(level_of(s, 1.0)).epsilon(0.01));
+  CHECK(halo_deviation(halo, stations[2], lights[2], 6.0) == test::approx(1.02).epsilon(0.005));
+  CHECK(halo_deviation(halo, stations[5], lights[5], 6.0) == test::approx(1.0).epsilon(0.005));
   // What is left at the largest angle is far less than a profile that were the same everywhere would leave.
   FitStation last = stations.back();
   subtract_halo(last, halo, lights.back(), 6.0, halo_deviation(halo, last, lights.back(), 6.0));

@@ -9,6 +9,7 @@
 
 #include "contrejour/expert/measured_flare.h"
 #include "measure/random_ghosts.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using contrejour::test::random_cut_ghost;
@@ -88,9 +89,9 @@ double largest_difference(const Image& a, const Image& b) {
 }  // namespace
 
 TEST_CASE("measured flare: curves are even, odd or neither") {
-  CHECK(AngleCurve{Parity::Even, {1.0, 2.0}}(-0.5) == doctest::Approx(1.5));
-  CHECK(AngleCurve{Parity::Odd, {1.0, 2.0}}(-0.5) == doctest::Approx(-0.75));
-  CHECK(AngleCurve{Parity::None, {1.0, 2.0, 4.0}}(-0.5) == doctest::Approx(1.0));
+  CHECK(AngleCurve{Parity::Even, {1.0, 2.0}}(-0.5) == test::approx(1.5));
+  CHECK(AngleCurve{Parity::Odd, {1.0, 2.0}}(-0.5) == test::approx(-0.75));
+  CHECK(AngleCurve{Parity::None, {1.0, 2.0, 4.0}}(-0.5) == test::approx(1.0));
   CHECK(AngleCurve{}(0.3) == 0.0);
 }
 
@@ -223,7 +224,7 @@ TEST_CASE("measured flare: a disc of level 1 sums to its area, at any resolution
     const auto image = render_measured(flare, std::span(&light, 1), frame);
     REQUIRE(image.has_value());
     const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
-    CHECK(sum == doctest::Approx(std::numbers::pi * 0.01).epsilon(2e-3));
+    CHECK(sum == test::approx(std::numbers::pi * 0.01).epsilon(2e-3));
   }
 }
 
@@ -244,7 +245,7 @@ TEST_CASE("measured flare: a disc smaller than a pixel sums to its area wherever
       const auto image = render_measured(flare, std::span(&light, 1), kFrame);
       REQUIRE(image.has_value());
       const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
-      CHECK(sum == doctest::Approx(area).epsilon(0.05));
+      CHECK(sum == test::approx(area).epsilon(0.05));
     }
   }
 }
@@ -257,28 +258,28 @@ TEST_CASE("measured flare: a ghost fades at the ends of its range, the flare bey
   ghost.last = 0.4;
   ghost.transition = 0.05;
   CHECK(!ghost_at(ghost, 0.05, 0.5));
-  CHECK(ghost_at(ghost, 0.125, 0.5)->inside[0] == doctest::Approx(0.5));
-  CHECK(ghost_at(ghost, 0.2, 0.5)->inside[0] == doctest::Approx(1.0));
-  CHECK(ghost_at(ghost, 0.375, 0.5)->inside[0] == doctest::Approx(0.5));
+  CHECK(ghost_at(ghost, 0.125, 0.5)->inside[0] == test::approx(0.5));
+  CHECK(ghost_at(ghost, 0.2, 0.5)->inside[0] == test::approx(1.0));
+  CHECK(ghost_at(ghost, 0.375, 0.5)->inside[0] == test::approx(0.5));
   ghost.last = 0.5;  // the end of what was measured
-  CHECK(ghost_at(ghost, 0.5, 0.5)->inside[0] == doctest::Approx(1.0));
+  CHECK(ghost_at(ghost, 0.5, 0.5)->inside[0] == test::approx(1.0));
   const MeasuredFlare flare{"one", "", 0.5, std::nullopt, {ghost}};
   const auto sum_at = [&](double s) {
     const FlareLight light{{s, 0.0}, {1.0, 1.0, 1.0}};
     const auto image = render_measured(flare, std::span(&light, 1), kFrame);
     return std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0);
   };
-  CHECK(sum_at(0.55) == doctest::Approx(0.5 * sum_at(0.5)).epsilon(1e-5));
+  CHECK(sum_at(0.55) == test::approx(0.5 * sum_at(0.5)).epsilon(1e-5));
   CHECK(sum_at(0.61) == 0.0);
 }
 
 TEST_CASE("measured flare: brightness by walch2018's equation 2") {
   const CaptureExposure capture{1.4, 100.0, 1.0};
-  CHECK(brightness_scale(capture, capture, 1.0) == doctest::Approx(1.0));
-  CHECK(brightness_scale(capture, {1.4, 200.0, 1.0}, 1.0) == doctest::Approx(2.0));
-  CHECK(brightness_scale(capture, {1.4, 100.0, 0.5}, 1.0) == doctest::Approx(0.5));
-  CHECK(brightness_scale(capture, {2.8, 100.0, 1.0}, 1.0) == doctest::Approx(0.25));
-  CHECK(brightness_scale(capture, capture, 3.0) == doctest::Approx(3.0));
+  CHECK(brightness_scale(capture, capture, 1.0) == test::approx(1.0));
+  CHECK(brightness_scale(capture, {1.4, 200.0, 1.0}, 1.0) == test::approx(2.0));
+  CHECK(brightness_scale(capture, {1.4, 100.0, 0.5}, 1.0) == test::approx(0.5));
+  CHECK(brightness_scale(capture, {2.8, 100.0, 1.0}, 1.0) == test::approx(0.25));
+  CHECK(brightness_scale(capture, capture, 3.0) == test::approx(3.0));
 }
 
 TEST_CASE("measured flare: hostile requests are refused") {

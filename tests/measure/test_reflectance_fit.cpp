@@ -9,6 +9,7 @@
 #include "measure/prescription/nonnegative.h"
 #include "measure/prescription/open_surfaces.h"
 #include "measure/prescription/reflectance_fit.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -38,7 +39,7 @@ TEST_CASE("reflectance fit: graphs of ghosts have the rank of their odd cycles")
   CHECK(fit.rank == 4);
   CHECK(fit.open.empty());
   for (std::size_t k = 0; k < x.size(); ++k)
-    CHECK(fit.x[static_cast<Eigen::Index>(k)] == doctest::Approx(x[k]).epsilon(0.01));
+    CHECK(fit.x[static_cast<Eigen::Index>(k)] == test::approx(x[k]).epsilon(0.01));
   // A known reflectance at one end determines the path.
   const std::vector<GhostSurfaces> anchored{{{0, -1}}, {{0, 1}}, {{1, 2}}, {{2, 3}}};
   CHECK(fit_of(anchored, x).rank == 4);
@@ -63,7 +64,7 @@ TEST_CASE("reflectance fit: a wrong energy among many counts little") {
   Eigen::VectorXd ratio = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(all.size()), std::exp(0.4));
   ratio[3] *= 3.0;
   const ReflectanceFit fit = fit_logarithms(all, ratio, 0.01 * ratio, 5, {});
-  for (int k = 0; k < 5; ++k) CHECK(fit.x[k] == doctest::Approx(0.2).epsilon(0.1));
+  for (int k = 0; k < 5; ++k) CHECK(fit.x[k] == test::approx(0.2).epsilon(0.1));
 }
 
 TEST_CASE("non-negative least squares: the conditions of Kuhn and Tucker hold") {

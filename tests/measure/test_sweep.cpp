@@ -10,6 +10,7 @@
 #include "contrejour/expert/sweep.h"
 #include "contrejour/expert/sweep_geometry.h"
 #include "contrejour/frame.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -55,8 +56,8 @@ TEST_CASE("sweep: the light's image moves as the head turns [slow]") {
     CHECK(station->exposures.size() == 3);
     CHECK(station->background.size() == 3);
     const Vec2 at = bright_centroid(station->direct);
-    CHECK(at.x == doctest::Approx(125.0 + focal_length_px * std::tan(rad_from_deg(station->angle_deg))).epsilon(0.01));
-    CHECK(at.y == doctest::Approx(77.0).epsilon(0.01));
+    CHECK(at.x == test::approx(125.0 + focal_length_px * std::tan(rad_from_deg(station->angle_deg))).epsilon(0.01));
+    CHECK(at.y == test::approx(77.0).epsilon(0.01));
   }
 }
 
@@ -87,7 +88,7 @@ TEST_CASE("sweep: roll lifts the light's image, the zero moves it [slow]") {
   const Vec2 rolled = bright_centroid(simulate_station(lens, settings, 0)->direct);
   settings.roll_deg = 0.0;
   const Vec2 level = bright_centroid(simulate_station(lens, settings, 0)->direct);
-  CHECK(level.y - rolled.y == doctest::Approx((level.x - 125.0) * std::tan(rad_from_deg(3.0))).epsilon(0.1));
+  CHECK(level.y - rolled.y == test::approx((level.x - 125.0) * std::tan(rad_from_deg(3.0))).epsilon(0.1));
   settings.zero_deg = 1.0;
   CHECK(bright_centroid(simulate_station(lens, settings, 0)->direct).x < level.x - 2.0);
 }

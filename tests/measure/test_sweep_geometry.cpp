@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "contrejour/expert/sweep_geometry.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -32,12 +33,12 @@ std::vector<DirectImage> swept(double from_deg, double to_deg, int stations, dou
 TEST_CASE("sweep geometry: exact positions give the exact geometry") {
   const auto found = fit_geometry(swept(-20.0, 20.0, 21));
   REQUIRE(found.has_value());
-  CHECK(found->centre_px.x == doctest::Approx(kTruth.centre_px.x).epsilon(1e-6));
-  CHECK(found->centre_px.y == doctest::Approx(kTruth.centre_px.y).epsilon(1e-6));
-  CHECK(found->focal_length_px == doctest::Approx(1700.0).epsilon(1e-6));
-  CHECK(found->distortion == doctest::Approx(-0.03).epsilon(1e-4));
-  CHECK(found->zero_rad == doctest::Approx(0.004).epsilon(1e-4));
-  CHECK(found->roll_rad == doctest::Approx(0.006).epsilon(1e-4));
+  CHECK(found->centre_px.x == test::approx(kTruth.centre_px.x).epsilon(1e-6));
+  CHECK(found->centre_px.y == test::approx(kTruth.centre_px.y).epsilon(1e-6));
+  CHECK(found->focal_length_px == test::approx(1700.0).epsilon(1e-6));
+  CHECK(found->distortion == test::approx(-0.03).epsilon(1e-4));
+  CHECK(found->zero_rad == test::approx(0.004).epsilon(1e-4));
+  CHECK(found->roll_rad == test::approx(0.006).epsilon(1e-4));
   CHECK(found->rms_px < 1e-6);
 }
 
@@ -64,16 +65,16 @@ TEST_CASE("sweep geometry: an expected centre keeps it near where few degrees le
   CHECK(std::abs(alone->centre_px.x - kTruth.centre_px.x) > 2.0 * off);
   CHECK(std::abs(both->centre_px.x - kTruth.centre_px.x) < 1.5 * off);
   CHECK(both->centre_error_px.x < 1.01 * expected_error);
-  CHECK(both->focal_length_px == doctest::Approx(1700.0).epsilon(0.005));
+  CHECK(both->focal_length_px == test::approx(1700.0).epsilon(0.005));
   const auto wide = fit_geometry(swept(-30.0, 30.0, 61, 0.05), expected);
   REQUIRE(wide.has_value());
   CHECK(std::abs(wide->centre_px.x - kTruth.centre_px.x) < 0.5);
   const auto exact = fit_geometry(swept(-20.0, 20.0, 21), expected);
   REQUIRE(exact.has_value());
-  CHECK(exact->centre_px.x == doctest::Approx(kTruth.centre_px.x).epsilon(1e-6));
+  CHECK(exact->centre_px.x == test::approx(kTruth.centre_px.x).epsilon(1e-6));
   CHECK(!fit_geometry(few, ExpectedCentre{{600.0, 400.0}, 0.0}));
   CHECK(expected_centre(1200, 800).position_px.y == 400.0);
-  CHECK(expected_centre(1200, 800).error_px == doctest::Approx(12.0));
+  CHECK(expected_centre(1200, 800).error_px == test::approx(12.0));
 }
 
 TEST_CASE("sweep geometry: a reflection taken for the light does little harm; swapped angles show") {
@@ -101,8 +102,8 @@ TEST_CASE("sweep geometry: the light's image in a short exposure") {
   }
   const auto at = direct_image_position(frame);
   REQUIRE(at.has_value());
-  CHECK(at->x == doctest::Approx(17.5));
-  CHECK(at->y == doctest::Approx(11.5));
+  CHECK(at->x == test::approx(17.5));
+  CHECK(at->y == test::approx(11.5));
   for (std::uint16_t& dn : frame.dn) dn = dn > 600 ? 16383 : dn;
   CHECK(!direct_image_position(frame));
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "measure/fit/walch_fit.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -63,7 +64,7 @@ TEST_CASE("walch fit: follows a disc from station to station, with two evaluatio
   CHECK(fit.progress.size() == 48);
   for (std::size_t k = 0; k < stations.size(); ++k) {
     REQUIRE(fit.ghosts[k].size() == 1);
-    CHECK(fit.ghosts[k][0].outline.half_height == doctest::Approx(0.12).epsilon(0.05));
-    CHECK(fit.ghosts[k][0].outline.centre == doctest::Approx(-0.8 * stations[k].s).epsilon(0.05));
+    CHECK(fit.ghosts[k][0].outline.half_height == test::approx(0.12).epsilon(0.05));
+    CHECK(fit.ghosts[k][0].outline.centre == test::approx(-0.8 * stations[k].s).epsilon(0.05));
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scenes.h"
+#include "support/approx.h"
 
 using namespace contrejour::openfx;
 
@@ -55,8 +56,8 @@ TEST_CASE("openfx: a light is dragged in the viewer, others stay, and a click be
     CHECK(viewer.act(action::kPenMotion, 322, 120) == status::kOk);
     CHECK(viewer.act(action::kPenUp, 482, 120) == status::kOk);
     CHECK(viewer.act(action::kPenMotion, 0, 0) == status::kReplyDefault);
-    CHECK(scene.effect().param("light2Position").numbers[0] == doctest::Approx(0.75));
-    CHECK(scene.effect().param("light2Position").numbers[1] == doctest::Approx(0.25));
+    CHECK(scene.effect().param("light2Position").numbers[0] == test::approx(0.75));
+    CHECK(scene.effect().param("light2Position").numbers[1] == test::approx(0.25));
     CHECK(scene.effect().param("light1Position").numbers[0] == kLightX);
     CHECK(viewer.act("OfxInteractActionKeyDown", 0, 0) == status::kReplyDefault);
   }

@@ -17,6 +17,7 @@
 
 #include "contrejour/apply.h"
 #include "scenes.h"
+#include "support/approx.h"
 #include "support/scratch_folder.h"
 
 using namespace contrejour;
@@ -235,12 +236,12 @@ TEST_CASE("openfx: at a smaller render scale the picture is as bright, and wider
   scene.output = HostPicture::of({0, 0, kWidth / 2, kHeight / 2});
   scene.effect().scale = 0.5;
   REQUIRE(scene.render({.window = scene.output.bounds, .scale = 0.5}) == status::kOk);
-  CHECK(4.0 * sum_of(scene.output) == doctest::Approx(whole).epsilon(0.05));
+  CHECK(4.0 * sum_of(scene.output) == test::approx(whole).epsilon(0.05));
   scene.effect().scale = 1.0;
   scene.output = HostPicture::of({0, 0, kWidth / 2, kHeight});
   scene.output.pixel_aspect = 2.0;
   REQUIRE(scene.render({.window = scene.output.bounds}) == status::kOk);
-  CHECK(sum_of(scene.output) == doctest::Approx(whole).epsilon(0.05));
+  CHECK(sum_of(scene.output) == test::approx(whole).epsilon(0.05));
 }
 
 TEST_CASE("openfx: a draft while a parameter is dragged, if wanted [slow]") {
@@ -251,7 +252,7 @@ TEST_CASE("openfx: a draft while a parameter is dragged, if wanted [slow]") {
   const double sum = sum_of(scene.output);
   REQUIRE(scene.render({.window = kBounds, .is_interactive = true}) == status::kOk);
   CHECK(scene.output.memory != final_frame);
-  CHECK(sum_of(scene.output) == doctest::Approx(sum).epsilon(0.1));
+  CHECK(sum_of(scene.output) == test::approx(sum).epsilon(0.1));
   scene.effect().set("draft", {0.0});
   REQUIRE(scene.render({.window = kBounds, .is_interactive = true}) == status::kOk);
   CHECK(scene.output.memory == final_frame);

@@ -13,6 +13,7 @@
 #include "natron_host.h"
 #include "openfx/transfer.h"
 #include "scenes.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::openfx;
@@ -201,6 +202,6 @@ TEST_CASE("openfx: Natron's preview scales, images that begin below zero, and a 
   const NatronNode small(host, kWidth, kHeight, &half_source);
   small.effect().set_text("wavelengths", kWavelengths);
   REQUIRE(small.render(half_output, 1.0, 0.5) == status::kOk);
-  CHECK(4.0 * (sum_of(half_output) - sum_of(half_source)) == doctest::Approx(whole).epsilon(0.1));
+  CHECK(4.0 * (sum_of(half_output) - sum_of(half_source)) == test::approx(whole).epsilon(0.1));
   CHECK(node.render(output, 2.0, 1.0, true) == status::kOk);
 }

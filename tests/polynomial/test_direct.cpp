@@ -16,6 +16,7 @@
 
 #include "contrejour/expert/direct_polynomials.h"
 #include "contrejour/expert/trace.h"
+#include "support/approx.h"
 #include "support/scratch_folder.h"
 
 using namespace contrejour;
@@ -106,7 +107,7 @@ TEST_CASE("camera rays of polynomials land where the tracer says") {
     ++open;
     sensor_px.push_back(length(traced.sensor_mm - sensor_mm) / fit.pixel_mm);
     CHECK(length(traced_stop(traced) - stop) < 1e-3);
-    CHECK(ray->transmittance == doctest::Approx(traced.transmission).epsilon(2e-3));
+    CHECK(ray->transmittance == test::approx(traced.transmission).epsilon(2e-3));
   }
   CHECK(open > 200);
   CHECK(wrong == 0);
@@ -130,7 +131,7 @@ TEST_CASE("the weights of camera rays sum to the projected solid angle of the ex
     const double radius = (k + 0.5) / kRings;
     sum += direct_ray(fit, {}, {radius, 0.0}, kLambda_nm)->weight * 2.0 * std::numbers::pi * radius / kRings;
   }
-  CHECK(sum == doctest::Approx(expected).epsilon(1e-4));
+  CHECK(sum == test::approx(expected).epsilon(1e-4));
 }
 
 TEST_CASE("a point of the scene is found on the sensor where its rays land") {
@@ -169,7 +170,7 @@ TEST_CASE("polynomials of one wavelength give its values") {
     const auto ray = direct_ray(one, sample.sensor_mm, sample.stop, 650.0);
     CHECK(length(all->origin_mm - ray->origin_mm) < 1e-3);
     CHECK(length(all->direction - ray->direction) < 1e-6);
-    CHECK(all->transmittance == doctest::Approx(ray->transmittance).epsilon(1e-3));
+    CHECK(all->transmittance == test::approx(ray->transmittance).epsilon(1e-3));
   }
 }
 

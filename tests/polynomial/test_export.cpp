@@ -16,6 +16,7 @@
 #include "contrejour/expert/polynomial.h"
 #include "polynomial/asymmetric_basis.h"
 #include "polynomial/zone_rays.h"
+#include "support/approx.h"
 #include "support/coarse_polynomials.h"
 #include "support/scratch_folder.h"
 
@@ -162,13 +163,13 @@ bool runs(const std::string& command) { return std::system((command + " > /dev/n
 
 void check_values(const std::vector<double>& values, const Expected& expected) {
   const PolynomialRay& ray = expected.ray;
-  CHECK(values[0] == doctest::Approx(ray.sensor_mm.x).epsilon(1e-9));
-  CHECK(values[1] == doctest::Approx(ray.sensor_mm.y).epsilon(1e-9));
-  CHECK(values[2] == doctest::Approx(ray.stop[0].x).epsilon(1e-9));
-  CHECK(values[3] == doctest::Approx(ray.stop[0].y).epsilon(1e-9));
-  CHECK(std::sqrt(values[8]) == doctest::Approx(ray.relative_height).epsilon(1e-9));
-  CHECK(values[9] == doctest::Approx(ray.transmittance).epsilon(1e-9));
-  for (std::size_t k = 0; k < expected.bounds.size(); ++k) CHECK(values[10 + k] == doctest::Approx(expected.bounds[k]));
+  CHECK(values[0] == test::approx(ray.sensor_mm.x).epsilon(1e-9));
+  CHECK(values[1] == test::approx(ray.sensor_mm.y).epsilon(1e-9));
+  CHECK(values[2] == test::approx(ray.stop[0].x).epsilon(1e-9));
+  CHECK(values[3] == test::approx(ray.stop[0].y).epsilon(1e-9));
+  CHECK(std::sqrt(values[8]) == test::approx(ray.relative_height).epsilon(1e-9));
+  CHECK(values[9] == test::approx(ray.transmittance).epsilon(1e-9));
+  for (std::size_t k = 0; k < expected.bounds.size(); ++k) CHECK(values[10 + k] == test::approx(expected.bounds[k]));
 }
 
 // Compares the numbers that a program printed with the library's.

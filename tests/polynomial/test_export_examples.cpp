@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/expert/direct_polynomials.h"
+#include "support/approx.h"
 #include "support/coarse_polynomials.h"
 #include "support/scratch_folder.h"
 
@@ -53,9 +54,9 @@ TEST_CASE("the example of a path tracer's camera draws a picture, and finds lamp
   CHECK(middle > 0.0);
   const ScenePoint lamp{{300.0, 300.0, -3000.0}};
   const Vec2 at = *direct_sensor_point(one, lamp, {}, 550.0), edge = *direct_sensor_point(one, lamp, {1.0, 0.0}, 550.0);
-  CHECK(found[0] == doctest::Approx(at.x).epsilon(1e-4));
-  CHECK(found[1] == doctest::Approx(at.y).epsilon(1e-4));
-  CHECK(found[2] == doctest::Approx(length(edge - at)).epsilon(1e-2));
+  CHECK(found[0] == test::approx(at.x).epsilon(1e-4));
+  CHECK(found[1] == test::approx(at.y).epsilon(1e-4));
+  CHECK(found[2] == test::approx(length(edge - at)).epsilon(1e-2));
 }
 
 TEST_CASE("the example of a game's shaders compiles") {

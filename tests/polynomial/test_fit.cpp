@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/polynomial.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -134,7 +135,7 @@ TEST_CASE("zones of a ghost adjoin from the axis to the largest field") {
   for (const GhostPolynomials& ghost : tessar_fit().ghosts) {
     REQUIRE(!ghost.zones.empty());
     CHECK(ghost.zones.front().field_low == 0.0);
-    CHECK(ghost.zones.back().field_high == doctest::Approx(tessar_fit().max_field));
+    CHECK(ghost.zones.back().field_high == test::approx(tessar_fit().max_field));
     for (std::size_t k = 1; k < ghost.zones.size(); ++k)
       CHECK(ghost.zones[k].field_low == ghost.zones[k - 1].field_high);
     CHECK(find_zone(ghost, 0.5 * tessar_fit().max_field) != nullptr);

@@ -13,6 +13,7 @@
 #include "contrejour/expert/published_fits.h"
 #include "contrejour/expert/published_samples.h"
 #include "contrejour/expert/trace.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::published;
@@ -68,11 +69,11 @@ TEST_CASE("a dense polynomial has the thesis's number of terms") {
 TEST_CASE("both bases evaluate as their formulas") {
   const Inputs at{0.3, -0.7, 0.5, 0.9};
   const Polynomial monomial{Basis::Monomials, {{{2, 1, 0, 3}, 4.0}}};
-  CHECK(evaluate(monomial, at) == doctest::Approx(4.0 * 0.09 * -0.7 * 0.729));
+  CHECK(evaluate(monomial, at) == test::approx(4.0 * 0.09 * -0.7 * 0.729));
   const Polynomial legendre{Basis::Legendre, {{{2, 0, 3, 0}, 1.0}}};
   const double p2 = 0.5 * (3.0 * 0.09 - 1.0) * std::sqrt(5.0);
   const double p3 = 0.5 * (5.0 * 0.125 - 3.0 * 0.5) * std::sqrt(7.0);
-  CHECK(evaluate(legendre, at) == doctest::Approx(p2 * p3));
+  CHECK(evaluate(legendre, at) == test::approx(p2 * p3));
 }
 
 TEST_CASE("a dense fit reproduces a polynomial of its degree") {
@@ -134,9 +135,9 @@ TEST_CASE("each rating of terms is what it says") {
       bb += b * b, by += b * y, yy += y * y;
     }
     best = std::min(best, std::sqrt((yy - by * by / bb) / static_cast<double>(samples.values.size())));
-    if (term == chosen) CHECK(first->error == doctest::Approx(std::sqrt((yy - by * by / bb) / 300.0)));
+    if (term == chosen) CHECK(first->error == test::approx(std::sqrt((yy - by * by / bb) / 300.0)));
   }
-  CHECK(first->error == doctest::Approx(best));
+  CHECK(first->error == test::approx(best));
 }
 
 TEST_CASE("replacement never raises the error, and more terms lower it") {
@@ -150,7 +151,7 @@ TEST_CASE("replacement never raises the error, and more terms lower it") {
     CHECK(plain->polynomial.terms.size() == static_cast<std::size_t>(terms));
     CHECK(replaced->error <= plain->error * (1.0 + 1e-9));
     CHECK(plain->error < last);
-    CHECK(replaced->curve.back().error == doctest::Approx(replaced->error).epsilon(1e-6));
+    CHECK(replaced->curve.back().error == test::approx(replaced->error).epsilon(1e-6));
     for (std::size_t k = 1; k < replaced->curve.size(); ++k)
       CHECK(replaced->curve[k].error <= replaced->curve[k - 1].error * (1.0 + 1e-9));
     last = plain->error;
@@ -195,7 +196,7 @@ TEST_CASE("annealing with dense coefficients is worse than with a fit") {
   const auto kept = anneal(*dense, options);
   REQUIRE((fitted.has_value() && kept.has_value()));
   CHECK(kept->error > 2.0 * fitted->error);
-  CHECK(kept->curve.back().error == doctest::Approx(kept->error).epsilon(1e-6));  // over all samples, as reported
+  CHECK(kept->curve.back().error == test::approx(kept->error).epsilon(1e-6));  // over all samples, as reported
   CHECK(!anneal(*dense, {.terms = 20, .samples = 10}).has_value());
   CHECK(!anneal(*dense, {.terms = 20, .samples = 401}).has_value());
   CHECK(!anneal(*dense, {.terms = 20, .iterations = 0, .samples = 0}).has_value());
@@ -304,12 +305,12 @@ TEST_CASE("rays in zones are those of the tracer") {
     const double z_mm = entrance_window(*lens, light).z_mm;
     for (std::size_t ray = 0; ray < zone.inputs.size(); ++ray) {
       const Inputs& at = zone.inputs[ray];
-      CHECK(at[2] + at[3] == doctest::Approx(1.0));
+      CHECK(at[2] + at[3] == test::approx(1.0));
       CHECK(at[2] <= 1.0 + 1e-12);
       const Vec3 origin{at[0] * zones->radius_mm, at[1] * zones->radius_mm, z_mm};
       const TracedRay traced =
           trace(ghost_path(*lens, {1, 4}, 550.0), {origin, normalized(Vec3{zones->fields[k], 0.0, 1.0})});
-      CHECK(traced.sensor_mm.x == doctest::Approx(zone.values[ray]));
+      CHECK(traced.sensor_mm.x == test::approx(zone.values[ray]));
       CHECK(length(traced.stop[0]) <= 1.1);
     }
   }

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/polynomial_range.h"
 #include "polynomial/zone_nodes.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -101,8 +102,8 @@ TEST_CASE("weights of nodes give polynomials of lower degree exactly") {
     sum += weights[static_cast<std::size_t>(n)];
     fourth += weights[static_cast<std::size_t>(n)] * std::pow(polynomial::node_coordinate(n, 5), 4.0);
   }
-  CHECK(sum == doctest::Approx(1.0).epsilon(1e-12));
-  CHECK(fourth == doctest::Approx(std::pow(0.37, 4.0)).epsilon(1e-12));
+  CHECK(sum == test::approx(1.0).epsilon(1e-12));
+  CHECK(fourth == test::approx(std::pow(0.37, 4.0)).epsilon(1e-12));
   CHECK(polynomial::node_weights(5, -1.0) == std::vector<double>{0.0, 0.0, 0.0, 0.0, 1.0});
 }
 

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/parameter_text.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -57,7 +58,7 @@ TEST_CASE("a smooth curve has no corner at a key and stays between its keys") {
     CAPTURE(key);
     const double before = (at(value, key) - at(value, key - kStep)) / kStep;
     const double after = (at(value, key + kStep) - at(value, key)) / kStep;
-    CHECK(before == doctest::Approx(after).epsilon(0.02).scale(1.0));
+    CHECK(before == test::approx(after).epsilon(0.02).scale(1.0));
   }
   for (double frame = 0; frame < 50; frame += 0.37) {
     const double now = at(value, frame), next = at(value, frame + 0.37);
@@ -67,7 +68,7 @@ TEST_CASE("a smooth curve has no corner at a key and stays between its keys") {
     CHECK(now <= 8.0 + 1e-12);
   }
   // Two keys alone: the cubic 3 t^2 - 2 t^3.
-  CHECK(at(keyed({{0, 0.0}, {10, 1.0}}, Interpolation::Smooth), 2.5) == doctest::Approx(0.15625));
+  CHECK(at(keyed({{0, 0.0}, {10, 1.0}}, Interpolation::Smooth), 2.5) == test::approx(0.15625));
 }
 
 TEST_CASE("a file's lights and parameters at each frame") {
@@ -95,16 +96,16 @@ size = 0.5
     add_lights_at(shot, frame, values);
     return values;
   };
-  CHECK(values_at(1006).number("fnumber") == doctest::Approx(10.0));
+  CHECK(values_at(1006).number("fnumber") == test::approx(10.0));
   CHECK(values_at(1002).integer("blades") == 5);
   CHECK(values_at(1006).integer("blades") == 7);
   CHECK_FALSE(values_at(1004).is_on("starburst"));
   CHECK(values_at(1005).is_on("starburst"));
 
   const auto lamp = params::parse_light(values_at(1006).list("light-at").at(0)).value();
-  CHECK(lamp.path.front().x == doctest::Approx(0.5));
-  CHECK(lamp.path.front().y == doctest::Approx(0.3));
-  CHECK(lamp.value->rgb[0] == doctest::Approx(5500));
+  CHECK(lamp.path.front().x == test::approx(0.5));
+  CHECK(lamp.path.front().y == test::approx(0.3));
+  CHECK(lamp.value->rgb[0] == test::approx(5500));
   CHECK_FALSE(lamp.colour.has_value());
   CHECK(lamp.distance_mm == 2500.0);
   CHECK(values_at(1011).list("light-at").empty());
@@ -181,14 +182,14 @@ TEST_CASE("while the shutter is open a light takes a path and has the mean of it
   CHECK(text(4, {}) == "0.5,0.5:500:3200K");
   const params::LightText half = light(2, {.angle_deg = 180});
   REQUIRE(half.path.size() > 2);
-  CHECK(half.path.front().x == doctest::Approx(0.3));
-  CHECK(half.path.back().x == doctest::Approx(0.35));
+  CHECK(half.path.front().x == test::approx(0.3));
+  CHECK(half.path.back().x == test::approx(0.35));
   CHECK(half.path.front().y == 0.5);
-  CHECK(half.value->rgb[0] == doctest::Approx(325));
+  CHECK(half.value->rgb[0] == test::approx(325));
   const params::LightText centred = light(2, {.angle_deg = 180, .centred = true});
-  CHECK(centred.path.front().x == doctest::Approx(0.275));
-  CHECK(centred.path.back().x == doctest::Approx(0.325));
-  CHECK(centred.value->rgb[0] == doctest::Approx(300));
+  CHECK(centred.path.front().x == test::approx(0.275));
+  CHECK(centred.path.back().x == test::approx(0.325));
+  CHECK(centred.value->rgb[0] == test::approx(300));
   CHECK(light(9, {.angle_deg = 360}).path.size() == 1);  // it stands still
 }
 

@@ -15,6 +15,7 @@
 #include "contrejour/expert/parameter_text.h"
 #include "sequence/tracking/assignment.h"
 #include "sequence/tracking/thin_keys.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -176,7 +177,7 @@ TEST_CASE("identities never swap while equal lights cross, and flux is shared wh
       CHECK(farthest(*track, path) < 1.5);
       CHECK(length(track->points.back().position_px - path(39)) < 0.2);
       for (const TrackPoint& point : track->points)
-        CHECK(flux_of(point.flux) == doctest::Approx(flux_of(track->points.front().flux)).epsilon(0.12));
+        CHECK(flux_of(point.flux) == test::approx(flux_of(track->points.front().flux)).epsilon(0.12));
     }
   }
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/expert/parameter_text.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -76,8 +77,8 @@ TEST_CASE("Nuke: several tracks in columns, and a CameraTracker's tracks with ho
   REQUIRE(columns.size() == 2);
   CHECK(columns[1].name == "track 2");
   CHECK(columns[1].keys[0].frame == 1001);
-  CHECK(columns[1].keys[1].uv.x == doctest::Approx(0.31));
-  CHECK(columns[1].keys[1].uv.y == doctest::Approx(0.59));
+  CHECK(columns[1].keys[1].uv.x == test::approx(0.31));
+  CHECK(columns[1].keys[1].uv.y == test::approx(0.59));
 
   const auto tracks = must_read(
       "TrackName autotrack0\n   Frame             X             Y   Correlation\n    12.00       100.000       980.000 "
@@ -185,24 +186,24 @@ TEST_CASE("a camera that turns and moves sees points where they are") {
     return params::parse_reals(text_at(shot.lights[k].position, frame), 2).value();
   };
   const double deg = 180.0 / std::numbers::pi;
-  CHECK(angles(0, 1001)[0] == doctest::Approx(0.0).epsilon(1e-9).scale(1.0));
-  CHECK(params::parse_real(text_at(*shot.lights[0].distance, 1001)).value() == doctest::Approx(10000.0));
+  CHECK(angles(0, 1001)[0] == test::approx(0.0).epsilon(1e-9).scale(1.0));
+  CHECK(params::parse_real(text_at(*shot.lights[0].distance, 1001)).value() == test::approx(10000.0));
   CHECK_FALSE(is_on(shot, 0, 1002));
-  CHECK(angles(1, 1002)[0] == doctest::Approx(std::atan2(1.0, 10.0) * deg));
-  CHECK(angles(1, 1002)[1] == doctest::Approx(std::atan2(1.0, std::hypot(10.0, 1.0)) * deg));
-  CHECK(angles(2, 1003)[0] == doctest::Approx(0.0).scale(1.0));
-  CHECK(params::parse_real(text_at(*shot.lights[2].distance, 1003)).value() == doctest::Approx(100000.0));
+  CHECK(angles(1, 1002)[0] == test::approx(std::atan2(1.0, 10.0) * deg));
+  CHECK(angles(1, 1002)[1] == test::approx(std::atan2(1.0, std::hypot(10.0, 1.0)) * deg));
+  CHECK(angles(2, 1003)[0] == test::approx(0.0).scale(1.0));
+  CHECK(params::parse_real(text_at(*shot.lights[2].distance, 1003)).value() == test::approx(100000.0));
   // At 90 degrees about x the camera looks up; what is at x = 2 stays at its right.
-  CHECK(angles(3, 1004)[0] == doctest::Approx(std::atan2(2.0, 10.0) * deg));
-  CHECK(angles(3, 1004)[1] == doctest::Approx(0.0).scale(1.0));
+  CHECK(angles(3, 1004)[0] == test::approx(std::atan2(2.0, 10.0) * deg));
+  CHECK(angles(3, 1004)[1] == test::approx(0.0).scale(1.0));
   // Rolled by 90 degrees to the left, its right is the world's up.
-  CHECK(angles(2, 1005)[0] == doctest::Approx(std::atan2(2.0, 97.0) * deg));
-  CHECK(angles(2, 1005)[1] == doctest::Approx(std::atan2(-1.0, std::hypot(97.0, 2.0)) * deg));
+  CHECK(angles(2, 1005)[0] == test::approx(std::atan2(2.0, 97.0) * deg));
+  CHECK(angles(2, 1005)[1] == test::approx(std::atan2(-1.0, std::hypot(97.0, 2.0)) * deg));
 
   // The field of view is the vertical one: 30 degrees, 16:9.
   const double hfov = params::parse_real(text_at(shot.parameters.at(0).second, 1001)).value();
   CHECK(shot.parameters[0].first == "hfov");
-  CHECK(hfov == doctest::Approx(2.0 * std::atan(16.0 / 9.0 * std::tan(15.0 / deg)) * deg));
+  CHECK(hfov == test::approx(2.0 * std::atan(16.0 / 9.0 * std::tan(15.0 / deg)) * deg));
 }
 
 TEST_CASE("orders of rotation: the first axis of the name is rotated about first, in the camera's own frame last") {
@@ -236,8 +237,8 @@ TEST_CASE("orders of rotation: the first axis of the name is rotated about first
     const std::vector<WorldPoint> points{{"lamp", {{0, {world[0], world[1], world[2]}}}, false}};
     const auto lights = lights_of_world(camera, points, {1920, 1080, order, std::nullopt, ""}).value();
     const auto angles = params::parse_reals(text_at(lights.animation.lights[0].position, 1), 2).value();
-    CHECK(angles[0] == doctest::Approx(std::atan2(1.5, 8.0) * deg));
-    CHECK(angles[1] == doctest::Approx(std::atan2(-0.7, std::hypot(1.5, 8.0)) * deg));
+    CHECK(angles[0] == test::approx(std::atan2(1.5, 8.0) * deg));
+    CHECK(angles[1] == test::approx(std::atan2(-0.7, std::hypot(1.5, 8.0)) * deg));
     CHECK_FALSE(lights.animation.lights[0].distance.has_value());
   }
 }

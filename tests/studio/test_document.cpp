@@ -13,6 +13,7 @@
 #include "studio/core/history.h"
 #include "studio/core/lights.h"
 #include "studio/core/prescription_table.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -99,7 +100,7 @@ TEST_CASE("commands of one gesture are one step until it ends") {
   history.push("move light 1", "light/0/at", *with_light_at(history.now(), 0, {0.9, 0.5}));
   CHECK(history.steps().size() == 3);
   history.undo();
-  CHECK(lights_of(history.now())[0].at.x == doctest::Approx(0.5));
+  CHECK(lights_of(history.now())[0].at.x == test::approx(0.5));
   history.push("set fnumber", "parameter/fnumber", *with_value(history.now(), "fnumber", "11"));
   CHECK(history.steps().size() == 3);
   CHECK_FALSE(history.can_redo());

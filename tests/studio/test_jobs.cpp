@@ -17,6 +17,7 @@
 #include "studio/core/ghosts_under.h"
 #include "studio/core/lights.h"
 #include "studio/core/picture_job.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -104,7 +105,7 @@ TEST_CASE("a draft has the picture's light, in pixels of another size") {
   static_cast<void>(order.values.set("starburst", "off"));
   static_cast<void>(order.values.set("size", "512x288"));
   const double whole = sum_of(order.values);
-  CHECK(sum_of(draft_values(order, draft_levels()[1])) == doctest::Approx(whole).epsilon(0.05));
+  CHECK(sum_of(draft_values(order, draft_levels()[1])) == test::approx(whole).epsilon(0.05));
 }
 
 TEST_CASE("while a light is dragged there are drafts, and the last picture is that of its last place") {
@@ -153,7 +154,7 @@ TEST_CASE("a starburst that was shifted to another light is near the one rendere
     moved += static_cast<double>(shifted.pixels[k]);
     difference += std::abs(static_cast<double>(star.pixels[k] - shifted.pixels[k]));
   }
-  CHECK(moved == doctest::Approx(sum).epsilon(0.05));
+  CHECK(moved == test::approx(sum).epsilon(0.05));
   CHECK(difference < 0.3 * sum);
 }
 
@@ -264,7 +265,7 @@ TEST_CASE("figures are those of the light that is asked for, and the section has
     CHECK(std::fabs(high.x - low.x - figures[k].size_px.x) < tolerance);
     CHECK(std::fabs(high.y - low.y - figures[k].size_px.y) < tolerance);
     CHECK_FALSE(footprint.contains({high.x + 10, high.y + 10}, 3));
-    CHECK(std::accumulate(footprint.cell_light.begin(), footprint.cell_light.end(), 0.0) == doctest::Approx(1.0));
+    CHECK(std::accumulate(footprint.cell_light.begin(), footprint.cell_light.end(), 0.0) == test::approx(1.0));
     ++traced;
   }
   CHECK(traced > 5);

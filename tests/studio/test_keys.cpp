@@ -5,6 +5,7 @@
 #include "studio/core/frame_values.h"
 #include "studio/core/keys.h"
 #include "studio/core/lights.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -61,7 +62,7 @@ TEST_CASE("a light with keys moves, the others stay, and edits follow the light"
   CHECK(keys_of(d, kPosition)->keys.size() == 2);
   const auto middle = lights_of(at_frame(d, 11));
   REQUIRE(middle.size() == 2);
-  CHECK(middle[0].at.x == doctest::Approx(0.35));
+  CHECK(middle[0].at.x == test::approx(0.35));
   CHECK(middle[0].colour == "3200K");
   CHECK(middle[1] == lights_of(d)[1]);
 
@@ -70,9 +71,9 @@ TEST_CASE("a light with keys moves, the others stay, and edits follow the light"
   more = edited(more, without_light(more, 1), 21);
   const auto left = lights_of(at_frame(more, 1));
   REQUIRE(left.size() == 2);
-  CHECK(left[0].at.x == doctest::Approx(0.25));
-  CHECK(left[1].at.y == doctest::Approx(0.1));
-  CHECK(lights_of(at_frame(more, 21))[0].at.x == doctest::Approx(0.45));
+  CHECK(left[0].at.x == test::approx(0.25));
+  CHECK(left[1].at.y == test::approx(0.1));
+  CHECK(lights_of(at_frame(more, 21))[0].at.x == test::approx(0.45));
 }
 
 TEST_CASE("keys are in the session as a lights file, and come back") {

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/station_file.h"
 #include "studio/core/measured_view.h"
+#include "support/approx.h"
 #include "support/scratch_folder.h"
 
 namespace contrejour::studio {
@@ -37,9 +38,9 @@ TEST_CASE("the curves of a ghost are its parameters over the angle") {
   const auto speed = curves_of(mirrored_disc(), GhostCurve::Speed);
   REQUIRE(speed.size() == 1);
   CHECK(speed[0].points.front().x == 0);
-  CHECK(speed[0].points.back().x == doctest::Approx(largest_angle_deg(mirrored_disc())));
-  for (const Vec2 p : speed[0].points) CHECK(p.y == doctest::Approx(-0.5));
-  CHECK(curves_of(mirrored_disc(), GhostCurve::HalfWidth)[0].points[3].y == doctest::Approx(0.02));
+  CHECK(speed[0].points.back().x == test::approx(largest_angle_deg(mirrored_disc())));
+  for (const Vec2 p : speed[0].points) CHECK(p.y == test::approx(-0.5));
+  CHECK(curves_of(mirrored_disc(), GhostCurve::HalfWidth)[0].points[3].y == test::approx(0.02));
 }
 
 MeasuredAnswer answer_to(MeasuredJob& job, const MeasuredOrder& order) {
@@ -57,7 +58,7 @@ TEST_CASE("the kymograph has the ghost where its speed puts it at each angle") {
   MeasuredJob job(measured_work(), {});
   const MeasuredAnswer first = answer_to(job, {file.string(), 0});
   REQUIRE_MESSAGE(first.flare, first.error);
-  CHECK(first.half_width == doctest::Approx(0.3));
+  CHECK(first.half_width == test::approx(0.3));
   const auto brightest_column = [&](int row) {
     double sum = 0, at = 0;
     for (int x = 0; x < kKymographWidth; ++x) {
@@ -68,9 +69,9 @@ TEST_CASE("the kymograph has the ghost where its speed puts it at each angle") {
     return at / sum;
   };
   const double px = kKymographWidth / 0.6;  // per tangent
-  CHECK(brightest_column(kKymographHeight / 2) == doctest::Approx(kKymographWidth / 2.0).epsilon(0.01));
-  CHECK(brightest_column(0) == doctest::Approx(kKymographWidth / 2.0 + 0.1 * px).epsilon(0.01));
-  CHECK(brightest_column(kKymographHeight - 1) == doctest::Approx(kKymographWidth / 2.0 - 0.1 * px).epsilon(0.01));
+  CHECK(brightest_column(kKymographHeight / 2) == test::approx(kKymographWidth / 2.0).epsilon(0.01));
+  CHECK(brightest_column(0) == test::approx(kKymographWidth / 2.0 + 0.1 * px).epsilon(0.01));
+  CHECK(brightest_column(kKymographHeight - 1) == test::approx(kKymographWidth / 2.0 - 0.1 * px).epsilon(0.01));
   const MeasuredAnswer second = answer_to(job, {file.string(), 10});
   CHECK(second.kymograph == first.kymograph);  // the same one
   CHECK(second.picture != first.picture);
@@ -132,7 +133,7 @@ TEST_CASE("photographs of a rolled camera lie on their fit, and what it has not 
   const std::string file = (folder / "disc.flare.toml").string(), sweep = (folder / ".").string();
   const MeasuredAnswer first = answer_to(job, {file, 5.5, sweep});
   REQUIRE_MESSAGE(first.photograph, first.error);
-  CHECK(first.angle_deg == doctest::Approx(6.0).epsilon(0.01));
+  CHECK(first.angle_deg == test::approx(6.0).epsilon(0.01));
   CHECK(first.photograph->station == 5);
   CHECK(first.photograph->count == 7);
   CHECK(first.photograph->read == 7);

@@ -13,6 +13,7 @@
 #include "studio/core/section_edits.h"
 #include "studio/core/studio.h"
 #include "studio/studio_scene.h"
+#include "support/approx.h"
 #include "support/scratch_folder.h"
 
 namespace contrejour::studio {
@@ -131,7 +132,7 @@ TEST_CASE("a snapshot is compared with what comes after it") {
   CHECK(studio.shown().rgba == displayed(snapshot, 9, ViewTransform::Preview));
   CHECK(studio.restore_snapshot(0));
   run_until_idle(studio);
-  CHECK(lights_of(studio.document())[0].at.x == doctest::Approx(0.22));
+  CHECK(lights_of(studio.document())[0].at.x == test::approx(0.22));
   CHECK_FALSE(studio.comparison()->psnr_db);
   studio.remove_snapshot(0);
   run_until_idle(studio);
@@ -156,7 +157,7 @@ TEST_CASE("the point spread has the arms of the iris, and dirt dims the pupil") 
   REQUIRE(clean.error.empty());
   REQUIRE(clean.pupil.size() == static_cast<std::size_t>(kPupilSide * kPupilSide));
   CHECK(clean.open_fraction == 1);
-  CHECK(clean.radius == doctest::Approx(1.0 / 32).epsilon(0.03));
+  CHECK(clean.radius == test::approx(1.0 / 32).epsilon(0.03));
   // Six blades: the levels on a circle about the middle repeat every sixth of a turn, and not every fifth.
   const auto at = [&](double turn) {
     const double angle = 6.283185307179586 * turn;
@@ -232,8 +233,8 @@ TEST_CASE("a surface is moved and bent along the axis") {
   const double before = lens.surfaces[1].thickness_mm, behind = lens.surfaces[2].thickness_mm;
   const auto moved = with_surface_dragged(lens, 2, SurfaceGrip::Vertex, 0.2);
   REQUIRE(moved);
-  CHECK(moved->surfaces[1].thickness_mm == doctest::Approx(before + 0.2));
-  CHECK(moved->surfaces[2].thickness_mm == doctest::Approx(behind - 0.2));
+  CHECK(moved->surfaces[1].thickness_mm == test::approx(before + 0.2));
+  CHECK(moved->surfaces[2].thickness_mm == test::approx(behind - 0.2));
   const Surface& first = lens.surfaces[0];
   CHECK(grip_at(first, 0.1) == SurfaceGrip::Vertex);
   CHECK(grip_at(first, 0.9 * first.semi_diameter_mm) == SurfaceGrip::Rim);
@@ -242,7 +243,7 @@ TEST_CASE("a surface is moved and bent along the axis") {
   // The sphere meets its rim a tenth of a millimetre farther on.
   const double h = first.semi_diameter_mm;
   const auto sag = [h](double c) { return 1 / c - std::copysign(std::sqrt(1 / (c * c) - h * h), c); };
-  CHECK(sag(bent->surfaces[0].curvature_per_mm) - sag(first.curvature_per_mm) == doctest::Approx(0.1).epsilon(0.001));
+  CHECK(sag(bent->surfaces[0].curvature_per_mm) - sag(first.curvature_per_mm) == test::approx(0.1).epsilon(0.001));
   CHECK_FALSE(with_surface_dragged(lens, 0, SurfaceGrip::Vertex, 1));
   CHECK_FALSE(with_surface_dragged(lens, 2, SurfaceGrip::Vertex, -1000));
 }

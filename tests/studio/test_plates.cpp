@@ -12,6 +12,7 @@
 #include "studio/core/plate_picture.h"
 #include "studio/core/studio.h"
 #include "studio/studio_scene.h"
+#include "support/approx.h"
 #include "support/scratch_folder.h"
 
 namespace contrejour::studio {
@@ -93,8 +94,8 @@ TEST_CASE("the lights of a plate become lights that can be moved, in one step") 
   CHECK(studio.history().steps().back().name == "detect 2 lights");
   const auto lights = lights_of(studio.document());
   REQUIRE(lights.size() == 2);
-  CHECK(lights[0].at.x == doctest::Approx(31.0 / kWidth));
-  CHECK(lights[0].at.y == doctest::Approx(21.0 / kHeight));
+  CHECK(lights[0].at.x == test::approx(31.0 / kWidth));
+  CHECK(lights[0].at.y == test::approx(21.0 / kHeight));
   CHECK(lights[0].value == "3600,3200,2800");  // the sum over its four pixels
   CHECK(lights[1].value == "1200,1600,2000");
 }
@@ -134,7 +135,7 @@ TEST_CASE("a draft on a plate has the plate's means and about the flare's light"
   const ScratchFolder folder;
   const auto plate = plate_of({plate_in(folder), "", "", "", ""});
   REQUIRE(plate);
-  CHECK(reduced_image((*plate)->picture.rgb, 60, 36).at(0, 0) == doctest::Approx(0.1));
+  CHECK(reduced_image((*plate)->picture.rgb, 60, 36).at(0, 0) == test::approx(0.1));
   const Document d = *with_value(*with_value(small_scene(), "size", "120x72"), "detect", "off");
   PictureOrder order{
       1, d.values(), std::make_shared<const LensState>(*params::lens_of(*d.lens, d.values())), {}, *plate};
@@ -155,7 +156,7 @@ TEST_CASE("a draft on a plate has the plate's means and about the flare's light"
   const double refined = flare_of(*answers[1].image, (*plate)->picture.rgb);
   CHECK(refined > 0);
   CHECK(flare_of(draft, reduced_image((*plate)->picture.rgb, draft.width, draft.height)) ==
-        doctest::Approx(refined).epsilon(0.1));
+        test::approx(refined).epsilon(0.1));
 }
 
 TEST_CASE("a plate that is exported is the one shown, and so is the flare alone in layers") {

@@ -4,6 +4,7 @@
 
 #include "contrejour/lens.h"
 #include "studio/core/prescription_table.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -22,8 +23,7 @@ TEST_CASE("typing a cell's own text changes nothing, in every bundled lens") {
         INFO(bundled.name, " surface ", row + 1, " \"", text, "\"");
         REQUIRE(again);
         CHECK(cell_text(*again, row, column) == text);
-        CHECK(again->surfaces[row].curvature_per_mm ==
-              doctest::Approx(lens.surfaces[row].curvature_per_mm).epsilon(1e-7));
+        CHECK(again->surfaces[row].curvature_per_mm == test::approx(lens.surfaces[row].curvature_per_mm).epsilon(1e-7));
       }
   }
 }
@@ -32,11 +32,11 @@ TEST_CASE("a cell sets its own number, and what is wrong says why") {
   const Prescription lens = lens_called("heliar");
   const auto edited = with_cell(lens, 0, LensColumn::Radius, "31.5");
   REQUIRE(edited);
-  CHECK(1 / edited->surfaces[0].curvature_per_mm == doctest::Approx(31.5));
+  CHECK(1 / edited->surfaces[0].curvature_per_mm == test::approx(31.5));
   CHECK(with_cell(lens, 0, LensColumn::Radius, "plane")->surfaces[0].curvature_per_mm == 0);
   const auto glass = with_cell(lens, 0, LensColumn::Glass, "N-BK7");
   REQUIRE(glass);
-  CHECK(refractive_index(glass->surfaces[0].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-4));
+  CHECK(refractive_index(glass->surfaces[0].glass_after, kLineD_nm) == test::approx(1.5168).epsilon(1e-4));
   CHECK(with_cell(lens, 0, LensColumn::Glass, "1.62,36.4"));
   const auto unknown = with_cell(lens, 0, LensColumn::Glass, "N-BK8x");
   REQUIRE_FALSE(unknown);
@@ -54,7 +54,7 @@ TEST_CASE("a surface that is inserted and deleted leaves the lens as it was") {
     REQUIRE(longer);
     CHECK(longer->surfaces.size() == lens.surfaces.size() + 1);
     CHECK(configure_lens(*longer)->focal_length_mm ==
-          doctest::Approx(configure_lens(lens)->focal_length_mm).epsilon(1e-9));
+          test::approx(configure_lens(lens)->focal_length_mm).epsilon(1e-9));
     const auto back = without_surface(*longer, 1);
     REQUIRE(back);
     CHECK(write_lens_toml(*back) == write_lens_toml(lens));
@@ -73,7 +73,7 @@ TEST_CASE("a lens reversed twice is itself; reversed once it has the same focal 
   lens.stated = {};
   const auto once = reversed_lens(lens);
   REQUIRE(once);
-  CHECK(configure_lens(*once)->focal_length_mm == doctest::Approx(configure_lens(lens)->focal_length_mm).epsilon(1e-6));
+  CHECK(configure_lens(*once)->focal_length_mm == test::approx(configure_lens(lens)->focal_length_mm).epsilon(1e-6));
   const auto twice = reversed_lens(*once);
   REQUIRE(twice);
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
@@ -86,7 +86,7 @@ TEST_CASE("a lens scaled by two has twice the focal length") {
   const auto scaled = scaled_lens(lens, 2);
   REQUIRE(scaled);
   CHECK(configure_lens(*scaled)->focal_length_mm ==
-        doctest::Approx(2 * configure_lens(lens)->focal_length_mm).epsilon(1e-6));
+        test::approx(2 * configure_lens(lens)->focal_length_mm).epsilon(1e-6));
   CHECK_FALSE(scaled_lens(lens, 0));
   CHECK_FALSE(scaled_lens(lens, -1));
 }

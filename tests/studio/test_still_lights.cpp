@@ -12,6 +12,7 @@
 #include "contrejour/expert/settings.h"
 #include "contrejour/render.h"
 #include "studio/core/document.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -48,7 +49,7 @@ TEST_CASE("lights that stand still are drawn once, and are in every flare") {
     draw.lights = 0;
     const auto flare = still.draw(request, key, std::ref(draw));
     REQUIRE(flare.has_value());
-    CHECK(flare->image.at(0, 0, 0) == doctest::Approx(465.0));  // of thirty lights, wherever they are
+    CHECK(flare->image.at(0, 0, 0) == test::approx(465.0));  // of thirty lights, wherever they are
     return draw.lights;
   };
   CHECK(drawn(request_of(30), "a") == 30);

@@ -8,6 +8,7 @@
 #include "studio/core/view.h"
 #include "studio/core/view_codes.h"
 #include "studio/core/views_job.h"
+#include "support/approx.h"
 
 namespace contrejour::studio {
 namespace {
@@ -47,14 +48,14 @@ TEST_CASE("the built-in displays have a view without tone mapping, and that of A
     return code_of(shown.rgba);
   };
   const auto plain = codes(one_pixel(0.1F, 0.2F, 0.05F), ColourSpace::Rec709, 1, "Un-tone-mapped");
-  CHECK(plain[0] == doctest::Approx(srgb_code(0.2)).epsilon(0.01));
-  CHECK(plain[1] == doctest::Approx(srgb_code(0.4)).epsilon(0.01));
-  CHECK(plain[2] == doctest::Approx(srgb_code(0.1)).epsilon(0.01));
+  CHECK(plain[0] == test::approx(srgb_code(0.2)).epsilon(0.01));
+  CHECK(plain[1] == test::approx(srgb_code(0.4)).epsilon(0.01));
+  CHECK(plain[2] == test::approx(srgb_code(0.1)).epsilon(0.01));
   // ACES 1 maps a scene's 18 per cent to 4.8 of 48 cd/m2; its video output then raises the luminance to 0.9811 for
   // dim surroundings (ODT.Academy.RGBmonitor_D65_100nits_dim, DIM_SURROUND_GAMMA).
   for (const ColourSpace space : {ColourSpace::Rec709, ColourSpace::AcesCg}) {
     const auto grey = codes(one_pixel(0.18F, 0.18F, 0.18F), space, 0, "ACES SDR video");
-    for (const int code : grey) CHECK(code == doctest::Approx(srgb_code(std::pow(0.1, 0.9811))).epsilon(0.012));
+    for (const int code : grey) CHECK(code == test::approx(srgb_code(std::pow(0.1, 0.9811))).epsilon(0.012));
   }
   const auto bright = codes(one_pixel(1e6F, 1e6F, 1e6F), ColourSpace::Rec709, 0, "Un-tone-mapped");
   CHECK(bright == std::array{255, 255, 255});
@@ -114,7 +115,7 @@ TEST_CASE("the table of a view has its codes to 3 of 255") {
 TEST_CASE("pictures in ACEScg are shown in the window's primaries") {
   ViewPainter painter;
   const auto shown = painter.codes(one_pixel(0.2F, 0.2F, 0.2F), ColourSpace::AcesCg, 0, ViewTransform::Clipped, {});
-  for (const int code : code_of(shown.rgba)) CHECK(code == doctest::Approx(srgb_code(0.2)).epsilon(0.01));
+  for (const int code : code_of(shown.rgba)) CHECK(code == test::approx(srgb_code(0.2)).epsilon(0.01));
   const auto green = painter.codes(one_pixel(0, 0.2F, 0), ColourSpace::AcesCg, 0, ViewTransform::Clipped, {});
   CHECK(code_of(green.rgba)[1] > srgb_code(0.2));
   CHECK(code_of(green.rgba)[0] == 0);

@@ -9,6 +9,7 @@
 
 #include "contrejour/expert/coating.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -65,8 +66,8 @@ TEST_CASE("a quarter-wave film at its design wavelength and normal incidence has
   const Coating coating{"", QuarterWave{1.38, 550.0}};
   const double n2 = 1.5168;
   const double expected = std::pow((1.38 * 1.38 - n2) / (1.38 * 1.38 + n2), 2);
-  CHECK(reflectance(coating, 1.0, n2, 1.0, 550.0) == doctest::Approx(expected).epsilon(1e-12));
-  CHECK(reflectance(coating, n2, 1.0, 1.0, 550.0) == doctest::Approx(expected).epsilon(1e-12));
+  CHECK(reflectance(coating, 1.0, n2, 1.0, 550.0) == test::approx(expected).epsilon(1e-12));
+  CHECK(reflectance(coating, n2, 1.0, 1.0, 550.0) == test::approx(expected).epsilon(1e-12));
 }
 
 TEST_CASE("the closed form of one film equals its transfer matrix, from both sides, at every angle") {
@@ -77,7 +78,7 @@ TEST_CASE("the closed form of one film equals its transfer matrix, from both sid
       const double theta = k * std::numbers::pi / 1800.0;
       for (const auto& [n0, n2] : {std::pair{1.0, 1.7}, std::pair{1.7, 1.0}, std::pair{1.9, 1.6}}) {
         const double matrix = unpolarised(film_response(n0, {&film, 1}, n2, theta, lambda));
-        CHECK(reflectance(coating, n0, n2, std::cos(theta), lambda) == doctest::Approx(matrix).epsilon(1e-9));
+        CHECK(reflectance(coating, n0, n2, std::cos(theta), lambda) == test::approx(matrix).epsilon(1e-9));
       }
     }
   }
@@ -89,25 +90,25 @@ TEST_CASE("reflectance is the same from both sides along one ray (reversibility)
     const double cos_air = std::sqrt(1.0 - sine * sine);
     const double cos_glass = std::sqrt(1.0 - std::pow(sine / 1.6, 2));
     CHECK(reflectance(stack, 1.0, 1.6, cos_air, 500.0) ==
-          doctest::Approx(reflectance(stack, 1.6, 1.0, cos_glass, 500.0)).epsilon(1e-11));
+          test::approx(reflectance(stack, 1.6, 1.0, cos_glass, 500.0)).epsilon(1e-11));
   }
 }
 
 TEST_CASE("bare glass: Fresnel at normal incidence, Brewster's angle, total reflection") {
   const Coating bare;
-  CHECK(reflectance(bare, 1.0, 1.5, 1.0, 550.0) == doctest::Approx(0.04).epsilon(1e-12));
+  CHECK(reflectance(bare, 1.0, 1.5, 1.0, 550.0) == test::approx(0.04).epsilon(1e-12));
   const double brewster = std::atan(1.5);
   const FilmResponse r = film_response(1.0, {}, 1.5, brewster, 550.0);
   CHECK(r.R_p < 1e-30);
-  CHECK(reflectance(bare, 1.0, 1.5, std::cos(brewster), 550.0) == doctest::Approx(0.5 * r.R_s).epsilon(1e-12));
+  CHECK(reflectance(bare, 1.0, 1.5, std::cos(brewster), 550.0) == test::approx(0.5 * r.R_s).epsilon(1e-12));
   CHECK(reflectance(bare, 1.5, 1.0, 0.5, 550.0) == 1.0);
-  CHECK(reflectance(bare, 1.0, 1.5, 0.0, 550.0) == doctest::Approx(1.0));
+  CHECK(reflectance(bare, 1.0, 1.5, 0.0, 550.0) == test::approx(1.0));
 }
 
 TEST_CASE("hullin2011's printed formula reflects 24 per cent too much for MgF2 on crown glass") {
   const double printed = reflectance({"", HullinFresnelAR{1.38, 550.0}}, 1.0, 1.5168, 1.0, 550.0);
   const double exact = reflectance({"", QuarterWave{1.38, 550.0}}, 1.0, 1.5168, 1.0, 550.0);
-  CHECK(printed / exact == doctest::Approx(1.24).epsilon(0.01));
+  CHECK(printed / exact == test::approx(1.24).epsilon(0.01));
 }
 
 TEST_CASE("an absorbing film transmits less than it does not reflect") {

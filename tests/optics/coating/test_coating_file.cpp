@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured coatings as files.
 #include "contrejour/expert/coating_file.h"
+#include "support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -29,10 +30,10 @@ TEST_CASE("a table of reflectances is read whatever stands between, and means wh
   }
   const auto read = read_measured_coating("nm,0,60\n500,0.01,0.04\n600,0.02,0.06\n", "r.csv");
   const Coating coating{"", *read};
-  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 500.0) == doctest::Approx(0.01));
-  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 525.0) == doctest::Approx(0.0125));
-  CHECK(reflectance(coating, 1.0, 1.5, 0.5, 600.0) == doctest::Approx(0.06));
-  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 900.0) == doctest::Approx(0.02));
+  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 500.0) == test::approx(0.01));
+  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 525.0) == test::approx(0.0125));
+  CHECK(reflectance(coating, 1.0, 1.5, 0.5, 600.0) == test::approx(0.06));
+  CHECK(reflectance(coating, 1.0, 1.5, 1.0, 900.0) == test::approx(0.02));
 }
 
 TEST_CASE("what is no table of reflectances names its line") {

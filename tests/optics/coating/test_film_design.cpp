@@ -11,6 +11,7 @@
 
 #include "contrejour/expert/film_design.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -52,7 +53,7 @@ TEST_CASE("film materials have their sources' indices") {
     off("HfO2", 1.875 + 6.28e-3 / (l * l) + 5.80e-4 / (l * l * l * l));
   }
   CHECK(worst < 2e-5);
-  CHECK(index_at(film_material("Ag"), 548.6).imag() == doctest::Approx(3.586).epsilon(0.01));
+  CHECK(index_at(film_material("Ag"), 548.6).imag() == test::approx(3.586).epsilon(0.01));
   CHECK(index_at(film_material("MgF2"), 100.0) == index_at(film_material("MgF2"), 360.0));
   CHECK(index_at(film_material("MgF2"), 5000.0) == index_at(film_material("MgF2"), 830.0));
   for (const FilmMaterialFacts& m : film_materials())
@@ -91,7 +92,7 @@ TEST_CASE("a seven-layer coating of dispersive films has its published mean refl
   const FilmMaterial low = film_material("MgF2"), high = film_material("Al2O3");
   const FilmStack stack{
       {{low, 94.6}, {high, 319.7}, {low, 17.7}, {high, 196.1}, {low, 26.3}, {high, 170.9}, {low, 190.4}}};
-  CHECK(mean(reflectances(stack, kBk7, every(420.0, 680.0, 1.0))) == doctest::Approx(0.00388).epsilon(0.01));
+  CHECK(mean(reflectances(stack, kBk7, every(420.0, 680.0, 1.0))) == test::approx(0.00388).epsilon(0.01));
 }
 
 TEST_CASE("a v-coat reflects nothing at its wavelength, on glasses of any index") {
@@ -130,7 +131,7 @@ TEST_CASE("a w-coat is that of its outer film at its wavelength, and lower to bo
   const Glass glass{"", ConstantIndex{1.62}};
   const auto r = reflectances(designed_for({CoatingDesign::WCoat}, glass), glass, std::vector{470.0, 550.0, 650.0});
   const double n1 = index_at(film_material("MgF2"), 550.0).real();
-  CHECK(r[1] == doctest::Approx(std::pow((n1 * n1 - 1.62) / (n1 * n1 + 1.62), 2.0)).epsilon(1e-9));
+  CHECK(r[1] == test::approx(std::pow((n1 * n1 - 1.62) / (n1 * n1 + 1.62), 2.0)).epsilon(1e-9));
   CHECK(r[0] < r[1]);
   CHECK(r[2] < r[1]);
 }
@@ -146,8 +147,8 @@ TEST_CASE("refinement finds a stack again by its reflectances, and keeps one tha
     return off;
   };
   const FilmStack found = refined({{{low, 100.0}, {high, 108.0}}}, kBk7, goal);
-  CHECK(found.layers[0].thickness_nm == doctest::Approx(110.0).epsilon(1e-4));
-  CHECK(found.layers[1].thickness_nm == doctest::Approx(95.0).epsilon(1e-4));
+  CHECK(found.layers[0].thickness_nm == test::approx(110.0).epsilon(1e-4));
+  CHECK(found.layers[1].thickness_nm == test::approx(95.0).epsilon(1e-4));
   CHECK(refined({}, kBk7, goal).layers.empty());
   CHECK(refined(truth, kBk7, {{}, goal.off}) == truth);
 }
@@ -164,7 +165,7 @@ TEST_CASE("placed coatings lie on the denser side; a wavelength's numbers are th
     for (const double cosine : {1.0, 0.7, 0.2}) {
       CHECK(reflectance(fixed, 1.0, n, cosine, nm) == reflectance(front, 1.0, n, cosine, nm));
       CHECK(transmittance(fixed, n, 1.0, std::sqrt(1.0 - (1.0 - cosine * cosine) / (n * n)), nm) ==
-            doctest::Approx(transmittance(front, 1.0, n, cosine, nm)).epsilon(1e-6));
+            test::approx(transmittance(front, 1.0, n, cosine, nm)).epsilon(1e-6));
     }
   }
   CHECK(normal_reflectance(design, {"", ConstantIndex{1.5168}}, 550.0) < 1e-12);  // not placed: computed here
@@ -172,13 +173,13 @@ TEST_CASE("placed coatings lie on the denser side; a wavelength's numbers are th
 
 TEST_CASE("measured coatings are read between their samples, from both sides") {
   const Coating measured{"", MeasuredCoating{{400.0, 500.0}, {0.0, 60.0}, {0.01, 0.05, 0.03, 0.09}}};
-  CHECK(reflectance(measured, 1.0, 1.5, 1.0, 400.0) == doctest::Approx(0.01));
-  CHECK(reflectance(measured, 1.0, 1.5, 0.5, 500.0) == doctest::Approx(0.09));
-  CHECK(reflectance(measured, 1.0, 1.5, std::cos(std::numbers::pi / 6.0), 450.0) == doctest::Approx(0.045));
-  CHECK(reflectance(measured, 1.0, 1.5, 1.0, 900.0) == doctest::Approx(0.03));
-  CHECK(reflectance(measured, 1.0, 1.5, 0.0, 100.0) == doctest::Approx(0.05));
+  CHECK(reflectance(measured, 1.0, 1.5, 1.0, 400.0) == test::approx(0.01));
+  CHECK(reflectance(measured, 1.0, 1.5, 0.5, 500.0) == test::approx(0.09));
+  CHECK(reflectance(measured, 1.0, 1.5, std::cos(std::numbers::pi / 6.0), 450.0) == test::approx(0.045));
+  CHECK(reflectance(measured, 1.0, 1.5, 1.0, 900.0) == test::approx(0.03));
+  CHECK(reflectance(measured, 1.0, 1.5, 0.0, 100.0) == test::approx(0.05));
   const double inside = std::sqrt(1.0 - 0.75 / 2.25);  // 60 degrees in air
-  CHECK(reflectance(measured, 1.5, 1.0, inside, 500.0) == doctest::Approx(0.09));
+  CHECK(reflectance(measured, 1.5, 1.0, inside, 500.0) == test::approx(0.09));
   CHECK(reflectance(measured, 1.5, 1.0, 0.3, 500.0) == 1.0);
-  CHECK(transmittance(measured, 1.0, 1.5, 1.0, 400.0) == doctest::Approx(0.99));
+  CHECK(transmittance(measured, 1.0, 1.5, 1.0, 400.0) == test::approx(0.99));
 }

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/check_lens.h"
 #include "contrejour/expert/lens_section.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -55,8 +56,7 @@ TEST_CASE("lens section: an arc's points lie on its sphere, no further from it t
       if (s.curvature_per_mm == 0.0) continue;
       const double radius = 1.0 / s.curvature_per_mm;
       for (std::size_t k = 0; k < points.size(); ++k) {
-        CHECK(std::hypot(points[k].x - s.z_mm - radius, points[k].y) ==
-              doctest::Approx(std::abs(radius)).epsilon(1e-9));
+        CHECK(std::hypot(points[k].x - s.z_mm - radius, points[k].y) == test::approx(std::abs(radius)).epsilon(1e-9));
         if (k == 0) continue;
         CHECK(points[k].y < points[k - 1].y);
         const Vec2 middle = (points[k] + points[k - 1]) * 0.5;
@@ -79,7 +79,7 @@ TEST_CASE("lens section: elements are closed, rays end on the sensor, the stop a
   REQUIRE(section.rays.size() == 10);
   for (const SectionRay& ray : section.rays) {
     CHECK(!ray.blocked);
-    CHECK(ray.points_mm.front().x == doctest::Approx(section.left_mm));
+    CHECK(ray.points_mm.front().x == test::approx(section.left_mm));
     CHECK(ray.points_mm.back().x == lens.sensor_z_mm);
   }
   // The rays from the axis meet in a point, but for spherical aberration.

@@ -8,6 +8,7 @@
 #include "base/decode_text.h"
 #include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::agf {
 namespace {
@@ -63,9 +64,9 @@ TEST_CASE("everything that a catalogue says") {
   CHECK(data.thermal == ThermalDispersion{1.86e-6, 1.31e-8, -1.37e-11, 4.34e-7, 6.27e-10, 0.17});
   CHECK(data.reference_temperature_c == 22.0);
   REQUIRE(data.absorption.size() == 3);  // sorted; the row with a blank is skipped
-  CHECK(internal_transmittance(one.glass, 365.0, 10.0) == doctest::Approx(0.971));
-  CHECK(internal_transmittance(one.glass, 400.0, 25.0) == doctest::Approx(0.992));
-  CHECK(internal_transmittance(one.glass, 310.0, 25.0) == doctest::Approx(0.0005));  // printed 0
+  CHECK(internal_transmittance(one.glass, 365.0, 10.0) == test::approx(0.971));
+  CHECK(internal_transmittance(one.glass, 400.0, 25.0) == test::approx(0.992));
+  CHECK(internal_transmittance(one.glass, 310.0, 25.0) == test::approx(0.0005));  // printed 0
   const CatalogueEntry& two = file.glasses[1];
   CHECK(refractive_index(two.glass, 500.0) == 1.5);
   CHECK(two.summary.status == GlassStatus::Obsolete);
@@ -100,7 +101,7 @@ TEST_CASE("numbers that go on in the next line") {
   CHECK(data_of(file.glasses[0]).coefficients.size() == 9);
   CHECK(data_of(file.glasses[0]).reference_temperature_c == 23.0);
   CHECK(refractive_index(file.glasses[0].glass, 500.0) ==
-        doctest::Approx(std::sqrt(1.25 + 0.1 + 0.01 + 0.4 + 0.16 + 0.16 + 0.128 + 0.1024 + 0.08192)).epsilon(1e-14));
+        test::approx(std::sqrt(1.25 + 0.1 + 0.01 + 0.4 + 0.16 + 0.16 + 0.128 + 0.1024 + 0.08192)).epsilon(1e-14));
 }
 
 TEST_CASE("a glass that cannot be is left out and named with its line; the others stay") {

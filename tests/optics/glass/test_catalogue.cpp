@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Glasses by name, maker and closeness; users' own catalogues.
 #include "contrejour/expert/glass_catalogue.h"
+#include "support/approx.h"
 
 #include <cmath>
 #include <fstream>
@@ -89,7 +90,7 @@ TEST_CASE("the closest glass") {
   const auto two = own.closest(1.5014, 60.8, 9);
   REQUIRE(two.size() == 2);
   CHECK(two[0].glass.name == "two");
-  CHECK(two[0].distance == doctest::Approx(std::sqrt(0.36 + 1.0)));
+  CHECK(two[0].distance == test::approx(std::sqrt(0.36 + 1.0)));
   CHECK(own.closest(1.5014, 60.0, 1, {}, true).at(0).glass.name == "old");
   CHECK(own.closest(1.5014, 60.0, 1, std::vector<std::string>{"A"}).at(0).glass.name == "one");
   CHECK(own.closest(1.5, 60.0, 0).empty());

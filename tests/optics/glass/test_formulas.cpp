@@ -8,6 +8,7 @@
 
 #include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::formulas {
 namespace {
@@ -81,7 +82,7 @@ TEST_CASE("every formula at 500 nm by hand") {
   CHECK(std::size(kByHand) == all_formulas().size());
   for (const ByHand& c : kByHand) {
     CAPTURE(formula_name(c.formula));
-    CHECK(index_of(c.formula, c.coefficients, 500.0) == doctest::Approx(c.n).epsilon(1e-14));
+    CHECK(index_of(c.formula, c.coefficients, 500.0) == test::approx(c.n).epsilon(1e-14));
     CHECK(formula_of_name(formula_name(c.formula)) == c.formula);
   }
 }
@@ -100,12 +101,12 @@ TEST_CASE("N-BK7 as its data sheet prints it") {
   }
   // The lens format's own three terms are the same formula.
   const Glass three{"", Sellmeier{{bk7[0], bk7[2], bk7[4]}, {bk7[1], bk7[3], bk7[5]}}};
-  CHECK(refractive_index(three, 480.0) == doctest::Approx(index_of(F::Sellmeier1, bk7, 480.0)).epsilon(1e-15));
+  CHECK(refractive_index(three, 480.0) == test::approx(index_of(F::Sellmeier1, bk7, 480.0)).epsilon(1e-15));
 }
 
 TEST_CASE("coefficients left out at the end are 0") {
   CHECK(index_of(F::Extended1, {2.25}, 500.0) == 1.5);
-  CHECK(index_of(F::Sellmeier5, {0.8, 0.05}, 500.0) == doctest::Approx(std::sqrt(2.0)).epsilon(1e-15));
+  CHECK(index_of(F::Sellmeier5, {0.8, 0.05}, 500.0) == test::approx(std::sqrt(2.0)).epsilon(1e-15));
   CHECK(index_of(F::Sellmeier2, {1.25}, 500.0) == 1.5);
   CHECK(index_of(F::Extended2, {1.25, 0.4, 0.1}, 500.0) == index_of(F::Schott, {1.25, 0.4, 0.1}, 500.0));
 }

@@ -5,6 +5,7 @@
 
 #include "contrejour/expert/glass_catalogue.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::rii {
 namespace {
@@ -53,14 +54,14 @@ TEST_CASE("everything that a page says") {
   CHECK(data.thermal == ThermalDispersion{1.86e-6, 1.31e-8, -1.37e-11, 4.34e-7, 6.27e-10, 0.17});
   CHECK(data.reference_temperature_c == 22.0);
   CHECK_FALSE(data.index_in_vacuum);
-  CHECK(refractive_index(entry.glass, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-6));
+  CHECK(refractive_index(entry.glass, kLineD_nm) == test::approx(1.5168).epsilon(1e-6));
   CHECK(entry.summary.code == "517642.251");
   CHECK(entry.summary.status == GlassStatus::Preferred);
   CHECK(entry.summary.v_d == 64.17);
   CHECK(entry.summary.maker == "MAKER");
   // k = 1e-8 at 500 nm: 4 pi 1e-8 / 500e-6 per mm.
   CHECK(internal_transmittance(entry.glass, 500.0, 100.0) ==
-        doctest::Approx(std::exp(-4 * 3.14159265358979 * 1e-8 / 5e-4 * 100)));
+        test::approx(std::exp(-4 * 3.14159265358979 * 1e-8 / 5e-4 * 100)));
 }
 
 TEST_CASE("tables of n, of n and k, rows that fall, wavelengths twice") {
@@ -71,7 +72,7 @@ TEST_CASE("tables of n, of n and k, rows that fall, wavelengths twice") {
   CHECK(refractive_index(entry.glass, 700.0) == 1.5);
   CHECK(data_of(entry).absorption.size() == 2);
   CHECK(internal_transmittance(entry.glass, 500.0, 0.01) ==
-        doctest::Approx(std::exp(-4 * 3.14159265358979 * 0.002 / 5e-4 * 0.01)));
+        test::approx(std::exp(-4 * 3.14159265358979 * 0.002 / 5e-4 * 0.01)));
   CHECK(read("DATA:\n  - type: tabulated n\n    data: |\n        0.4 1.6\n        0.7 1.5\n").summary.n_d > 1.5);
 }
 
@@ -81,7 +82,7 @@ TEST_CASE("index and wavelength against vacuum") {
       read(std::string(kPage) + "SPECS:\n    n_is_absolute: true\n    wavelength_is_vacuum: true\n");
   CHECK(data_of(vacuum).index_in_vacuum);
   CHECK(data_of(vacuum).wavelength_in_vacuum);
-  CHECK(in_air - refractive_index(vacuum.glass, 500.0) == doctest::Approx(1.52 * 2.7e-4).epsilon(0.1));
+  CHECK(in_air - refractive_index(vacuum.glass, 500.0) == test::approx(1.52 * 2.7e-4).epsilon(0.1));
   CHECK(data_of(read("SPECS:\n    temperature: \"25.0 \u00b0C\"\n" +
                      std::string("DATA:\n  - type: formula 5\n    coefficients: 1.5\n    wavelength_range: 0.4 0.7\n")))
             .reference_temperature_c == 25.0);

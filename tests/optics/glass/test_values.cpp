@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/glass_catalogue.h"
+#include "support/approx.h"
 
 namespace contrejour::test::values {
 namespace {
@@ -42,7 +43,7 @@ TEST_CASE("a table passes through its points, never beyond its neighbours, and k
     for (int k = 0; k < 2 + trial % 9; ++k) points.insert(points.end(), {um += step(random), index(random)});
     const Glass glass = table(points);
     for (std::size_t k = 0; k < points.size(); k += 2)
-      CHECK(refractive_index(glass, points[k] * 1e3) == doctest::Approx(points[k + 1]).epsilon(1e-11));
+      CHECK(refractive_index(glass, points[k] * 1e3) == test::approx(points[k + 1]).epsilon(1e-11));
     for (std::size_t k = 0; k + 2 < points.size(); k += 2) {
       const double low = std::min(points[k + 1], points[k + 3]), high = std::max(points[k + 1], points[k + 3]);
       for (int i = 1; i < 20; ++i) {
@@ -68,9 +69,9 @@ TEST_CASE("a model glass has the figures it was given") {
   for (const ModelGlass& model :
        {ModelGlass{1.5168, 64.17, -0.0009}, ModelGlass{1.80518, 25.36, 0.0092}, ModelGlass{1.497, 81.54, 0.03}}) {
     const GlassFigures figures = glass_figures({"", model});
-    CHECK(figures.n_d == doctest::Approx(model.n_d).epsilon(1e-14));
-    CHECK(figures.v_d == doctest::Approx(model.v_d).epsilon(1e-10));
-    CHECK(figures.d_pgf == doctest::Approx(model.d_pgf).epsilon(1e-8));
+    CHECK(figures.n_d == test::approx(model.n_d).epsilon(1e-14));
+    CHECK(figures.v_d == test::approx(model.v_d).epsilon(1e-10));
+    CHECK(figures.d_pgf == test::approx(model.d_pgf).epsilon(1e-8));
   }
   CHECK(refractive_index({"", ModelGlass{1.6, 0.0, 0.0}}, 400.0) == 1.6);
 }
@@ -122,10 +123,10 @@ TEST_CASE("air") {
     CHECK(std::abs(air_index(nm, {15.0, 1.0}) - edlen) < 3e-8);
   }
   CHECK(air_index(550, {20.0, 0.0}) == 1.0);
-  CHECK(air_index(550, {15.0, 0.5}) - 1.0 == doctest::Approx(0.5 * (air_index(550, {15.0, 1.0}) - 1.0)));
+  CHECK(air_index(550, {15.0, 0.5}) - 1.0 == test::approx(0.5 * (air_index(550, {15.0, 1.0}) - 1.0)));
   // Hotter air has lower density, as an ideal gas: 288.15 K over 338.15 K to 0.1 %.
   CHECK((air_index(550, {65.0, 1.0}) - 1) / (air_index(550, {15.0, 1.0}) - 1) ==
-        doctest::Approx(288.15 / 338.15).epsilon(1e-3));
+        test::approx(288.15 / 338.15).epsilon(1e-3));
 }
 
 TEST_CASE("at the catalogue's conditions n is the catalogue's, to the last bit") {
@@ -158,13 +159,13 @@ TEST_CASE("in vacuum a glass keeps its absolute index") {
   const double n_air = air_index(500.0);
   // The same light: 500 nm in air are 500 n nm in vacuum.
   CHECK(refractive_index(bk7(), 500.0 * n_air, {20.0, 0.0}) ==
-        doctest::Approx(refractive_index(bk7(), 500.0) * n_air).epsilon(2e-8));
+        test::approx(refractive_index(bk7(), 500.0) * n_air).epsilon(2e-8));
   data.index_in_vacuum = true;
   CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) ==
-        doctest::Approx(refractive_index(bk7(), 500.0) / n_air).epsilon(1e-15));
+        test::approx(refractive_index(bk7(), 500.0) / n_air).epsilon(1e-15));
   data.wavelength_in_vacuum = true;
   CHECK(refractive_index({"", CatalogueGlass(data)}, 500.0) ==
-        doctest::Approx(refractive_index(bk7(), 500.0 * n_air) / n_air).epsilon(1e-15));
+        test::approx(refractive_index(bk7(), 500.0 * n_air) / n_air).epsilon(1e-15));
 }
 
 TEST_CASE("a negative lambda_tk stands for a sum") {
@@ -174,7 +175,7 @@ TEST_CASE("a negative lambda_tk stands for a sum") {
   const double change = 1e-6 * 30 / (0.25 + 0.04) * (n * n - 1) / (2 * n);
   const double hot_nm = 500.0 * air_index(500.0) / air_index(500.0, {50.0, 1.0});
   const double hot = refractive_index({"", CatalogueGlass(data)}, hot_nm, {50.0, 1.0}) * air_index(hot_nm, {50.0, 1.0});
-  CHECK(hot - n * air_index(500.0) == doctest::Approx(change).epsilon(1e-3));
+  CHECK(hot - n * air_index(500.0) == test::approx(change).epsilon(1e-3));
 }
 
 TEST_CASE("transmittance: through the measured points, by Beer's law in length") {
@@ -182,11 +183,11 @@ TEST_CASE("transmittance: through the measured points, by Beer's law in length")
   const double per_mm = -std::log(0.9) / 25.0;
   data.absorption = {{400.0, per_mm}, {500.0, 3 * per_mm}};
   const Glass glass{"", CatalogueGlass(data)};
-  CHECK(internal_transmittance(glass, 400.0, 25.0) == doctest::Approx(0.9).epsilon(1e-14));
-  CHECK(internal_transmittance(glass, 400.0, 50.0) == doctest::Approx(0.81).epsilon(1e-14));
-  CHECK(internal_transmittance(glass, 450.0, 25.0) == doctest::Approx(0.81).epsilon(1e-14));  // twice the coefficient
-  CHECK(internal_transmittance(glass, 300.0, 25.0) == doctest::Approx(0.9).epsilon(1e-14));
-  CHECK(internal_transmittance(glass, 900.0, 25.0) == doctest::Approx(0.729).epsilon(1e-14));
+  CHECK(internal_transmittance(glass, 400.0, 25.0) == test::approx(0.9).epsilon(1e-14));
+  CHECK(internal_transmittance(glass, 400.0, 50.0) == test::approx(0.81).epsilon(1e-14));
+  CHECK(internal_transmittance(glass, 450.0, 25.0) == test::approx(0.81).epsilon(1e-14));  // twice the coefficient
+  CHECK(internal_transmittance(glass, 300.0, 25.0) == test::approx(0.9).epsilon(1e-14));
+  CHECK(internal_transmittance(glass, 900.0, 25.0) == test::approx(0.729).epsilon(1e-14));
   CHECK(internal_transmittance(glass, 450.0, 0.0) == 1.0);
   CHECK(internal_transmittance(bk7(), 450.0, 25.0) == 1.0);
   CHECK(internal_transmittance(air(), 450.0, 1e9) == 1.0);

@@ -14,6 +14,7 @@
 #include "contrejour/expert/first_order.h"
 #include "contrejour/expert/seidel.h"
 #include "shared_data.h"
+#include "support/approx.h"
 #include "support/csv_lens.h"
 
 using namespace contrejour;
@@ -159,8 +160,8 @@ TEST_CASE("a ball lens focuses at n R / (2 (n - 1)) from its centre") {
                    {SurfaceKind::Refracting, 1.0 / radius, 2 * radius, 4.0, {"", ConstantIndex{n}}, {}, 0},
                    {SurfaceKind::Refracting, -1.0 / radius, 0.0, 4.0, air(), {}, 0}};
   const LensState state = test::configured(ball);
-  CHECK(state.focal_length_mm == doctest::Approx(n * radius / (2 * (n - 1))).epsilon(1e-12));
-  CHECK(state.sensor_z_mm == doctest::Approx(radius + n * radius / (2 * (n - 1))).epsilon(1e-12));
+  CHECK(state.focal_length_mm == test::approx(n * radius / (2 * (n - 1))).epsilon(1e-12));
+  CHECK(state.sensor_z_mm == test::approx(radius + n * radius / (2 * (n - 1))).epsilon(1e-12));
 }
 
 TEST_CASE("Seidel's sums are those that optiland asserts, its signs turned, to 1e-6") {
@@ -193,7 +194,7 @@ TEST_CASE("Seidel's sums are those that optiland asserts, its signs turned, to 1
     const double computed[] = {sums.spherical, sums.coma, sums.astigmatism, sums.petzval, sums.distortion};
     const std::vector<double>& wanted = expected[system.test];
     REQUIRE(wanted.size() == 5);
-    for (std::size_t k = 0; k < 5; ++k) CHECK(computed[k] == doctest::Approx(-wanted[k]).epsilon(1e-6));
+    for (std::size_t k = 0; k < 5; ++k) CHECK(computed[k] == test::approx(-wanted[k]).epsilon(1e-6));
     CHECK(sums.axial_colour == 0.0);  // glasses are constants here
   }
 }
@@ -213,15 +214,15 @@ TEST_CASE("a thin lens's colour is y^2 power / V, and an ellipsoid of conic -1 /
   REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
   const double y = 0.5 * state->focal_length_mm / 5.0;
   const SeidelSums thin = seidel_sums(*state, {});
-  CHECK(thin.axial_colour == doctest::Approx(y * y / state->focal_length_mm / 40.0).epsilon(1e-6));
-  CHECK(thin.lateral_colour == doctest::Approx(0.0));
+  CHECK(thin.axial_colour == test::approx(y * y / state->focal_length_mm / 40.0).epsilon(1e-6));
+  CHECK(thin.lateral_colour == test::approx(0.0));
   CHECK(thin.spherical > 0.0);
 
   const double n = refractive_index(glass, kLineD_nm);
   state->surfaces[1].shape.conic = -1.0 / (n * n);
-  CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));
+  CHECK(seidel_by_surface(*state, {})[1].spherical == test::approx(0.0).scale(thin.spherical));
   // The same departure from the sphere, as a coefficient of r^4.
   state->surfaces[1].shape.conic = 0.0;
   state->surfaces[1].shape.powers = {0.0, 0.0, 0.0, -0.02 * 0.02 * 0.02 / (8.0 * n * n)};
-  CHECK(seidel_by_surface(*state, {})[1].spherical == doctest::Approx(0.0).scale(thin.spherical));
+  CHECK(seidel_by_surface(*state, {})[1].spherical == test::approx(0.0).scale(thin.spherical));
 }

@@ -7,6 +7,7 @@
 
 #include "base/scalar.h"
 #include "contrejour/lens.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -44,10 +45,10 @@ TEST_CASE("a mechanism keeps the f-number's area, whatever its blades") {
       CAPTURE(f_number);
       const LensState round = heliar(f_number, {}, IrisClosing::Scaled);
       const LensState blades = heliar(f_number, iris, IrisClosing::Mechanism);
-      CHECK(open_mm2(blades) / open_mm2(round) == doctest::Approx(1.0).epsilon(1e-9));
+      CHECK(open_mm2(blades) / open_mm2(round) == test::approx(1.0).epsilon(1e-9));
       CHECK(blades.f_number == f_number);
       CHECK(blades.stop_radius_mm >= round.stop_radius_mm * (1.0 - 1e-9));
-      CHECK(IrisOpening(blades.iris).outer_radius() == doctest::Approx(1.0).epsilon(1e-9));
+      CHECK(IrisOpening(blades.iris).outer_radius() == test::approx(1.0).epsilon(1e-9));
     }
   }
 }
@@ -55,7 +56,7 @@ TEST_CASE("a mechanism keeps the f-number's area, whatever its blades") {
 TEST_CASE("as a mechanism closes, the rim goes and the blades' polygon stays") {
   const double hole_mm = heliar(kWidest, {}, IrisClosing::Scaled).stop_radius_mm;
   const LensState slightly = heliar(3.6, {6}, IrisClosing::Mechanism);
-  CHECK(slightly.stop_radius_mm == doctest::Approx(hole_mm));
+  CHECK(slightly.stop_radius_mm == test::approx(hole_mm));
   CHECK(slightly.iris.blade_radius > 1.0);
   CHECK(IrisOpening(slightly.iris).edges().size() == 12);
   const LensState closed = heliar(11.0, {6}, IrisClosing::Mechanism);
@@ -63,8 +64,7 @@ TEST_CASE("as a mechanism closes, the rim goes and the blades' polygon stays") {
   CHECK(IrisOpening(closed.iris).edges().size() == 6);
   // A hexagon of the circle's area: 3 sqrt(3) / 2 b^2 = pi r^2.
   const double round_mm = heliar(11.0, {}, IrisClosing::Scaled).stop_radius_mm;
-  CHECK(closed.stop_radius_mm / round_mm ==
-        doctest::Approx(std::sqrt(2.0 * kPi / (3.0 * std::sqrt(3.0)))).epsilon(1e-9));
+  CHECK(closed.stop_radius_mm / round_mm == test::approx(std::sqrt(2.0 * kPi / (3.0 * std::sqrt(3.0)))).epsilon(1e-9));
 }
 
 TEST_CASE("scaled blades have their corners on the round stop's rim") {

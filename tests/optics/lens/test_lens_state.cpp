@@ -8,6 +8,7 @@
 
 #include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -39,15 +40,15 @@ Prescription prime_lens() {
 
 TEST_CASE("the two-term fit passes through n_d and the F and C lines") {
   const Glass g = crown();
-  CHECK(refractive_index(g, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-14));
+  CHECK(refractive_index(g, kLineD_nm) == test::approx(1.5168).epsilon(1e-14));
   const double spread = refractive_index(g, kLineF_nm) - refractive_index(g, kLineC_nm);
-  CHECK((1.5168 - 1.0) / spread == doctest::Approx(64.17).epsilon(1e-12));
+  CHECK((1.5168 - 1.0) / spread == test::approx(64.17).epsilon(1e-12));
 }
 
 TEST_CASE("Sellmeier's formula gives N-BK7's catalogue index at d") {
   // Schott, N-BK7 data sheet: n_d = 1.51680.
   const Glass bk7{"N-BK7", Sellmeier{{1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}}};
-  CHECK(refractive_index(bk7, kLineD_nm) == doctest::Approx(1.51680003).epsilon(1e-8));
+  CHECK(refractive_index(bk7, kLineD_nm) == test::approx(1.51680003).epsilon(1e-8));
 }
 
 TEST_CASE("any focal length between a zoom's positions is reached, and the sensor follows focus") {
@@ -59,9 +60,9 @@ TEST_CASE("any focal length between a zoom's positions is reached, and the senso
     const double wanted = shortest + (longest - shortest) * k / 10.0;
     const auto state = configure_lens(lens, {.focal_length_mm = wanted});
     REQUIRE(state.has_value());
-    CHECK(state->focal_length_mm == doctest::Approx(wanted).epsilon(1e-9));
+    CHECK(state->focal_length_mm == test::approx(wanted).epsilon(1e-9));
     const FirstOrder f = first_order(*state, kLineD_nm);
-    CHECK(f.sensor_position_mm == doctest::Approx(f.back_focal_distance_mm).epsilon(1e-12));
+    CHECK(f.sensor_position_mm == test::approx(f.back_focal_distance_mm).epsilon(1e-12));
   }
   CHECK_FALSE(configure_lens(lens, {.focal_length_mm = 20.0}).has_value());
   CHECK_FALSE(configure_lens(lens, {.focal_length_mm = 500.0}).has_value());
@@ -73,10 +74,10 @@ TEST_CASE("the f-number sets the stop by the real marginal ray") {
   const auto f16 = configure_lens(prime_lens(), {.f_number = 16.0});
   REQUIRE(f8.has_value());
   REQUIRE(f16.has_value());
-  CHECK(f8->stop_radius_mm / f16->stop_radius_mm == doctest::Approx(2.0).epsilon(0.01));
+  CHECK(f8->stop_radius_mm / f16->stop_radius_mm == test::approx(2.0).epsilon(0.01));
   // Paraxially the marginal height at the stop is front.a * EPD / 2; the real ray differs only by aberration.
   const Abcd front = abcd_between(f16->surfaces, 0, f16->stop_index, kLineD_nm);
-  CHECK(f16->stop_radius_mm == doctest::Approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
+  CHECK(f16->stop_radius_mm == test::approx(front.a * f16->focal_length_mm / 32.0).epsilon(1e-3));
   CHECK(configure_lens(prime_lens(), {.f_number = 3.9})->f_number == 4.0);  // engraved slightly wider than it is
   Prescription narrow = prime_lens();
   narrow.surfaces[2].semi_diameter_mm = 2.0;
@@ -95,8 +96,7 @@ TEST_CASE("focusing near moves the sensor to the conjugate plane (Newton's equat
   REQUIRE(near.has_value());
   const FirstOrder f = first_order(*far, kLineD_nm);
   const double x = 1000.0 + f.front_focal_distance_mm;  // object to front focal point
-  CHECK(near->sensor_z_mm - far->sensor_z_mm ==
-        doctest::Approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
+  CHECK(near->sensor_z_mm - far->sensor_z_mm == test::approx(f.focal_length_mm * f.focal_length_mm / x).epsilon(1e-9));
   CHECK_FALSE(configure_lens(prime_lens(), {.object_distance_mm = 10.0}).has_value());
   CHECK_FALSE(configure_lens(prime_lens(), {.object_distance_mm = -5.0}).has_value());
 }

@@ -10,6 +10,7 @@
 
 #include "contrejour/expert/first_order.h"
 #include "contrejour/lens.h"
+#include "support/approx.h"
 
 namespace contrejour::test::bundled {
 namespace {
@@ -35,14 +36,14 @@ TEST_CASE("each loads, is valid and agrees with its stated figures") {
     CHECK(state.warnings.empty());
     const FirstOrder first = first_order(state, lens->stated.wavelength_nm);
     REQUIRE(lens->stated.focal_length_mm.has_value());
-    CHECK(first.focal_length_mm == doctest::Approx(*lens->stated.focal_length_mm).epsilon(lens->stated.tolerance));
+    CHECK(first.focal_length_mm == test::approx(*lens->stated.focal_length_mm).epsilon(lens->stated.tolerance));
     if (lens->stated.back_focal_distance_mm) {
       CHECK(first.back_focal_distance_mm ==
-            doctest::Approx(*lens->stated.back_focal_distance_mm).epsilon(lens->stated.tolerance));
+            test::approx(*lens->stated.back_focal_distance_mm).epsilon(lens->stated.tolerance));
     }
     // The widest f-number fits the stop.
     CHECK(state.stop_radius_mm <= state.surfaces[static_cast<std::size_t>(state.stop_index)].semi_diameter_mm);
-    CHECK(first.f_number == doctest::Approx(lens->f_number).epsilon(0.01));
+    CHECK(first.f_number == test::approx(lens->f_number).epsilon(0.01));
   }
 }
 
@@ -63,9 +64,9 @@ TEST_CASE("every position of the zooms") {
     CAPTURE(position.asked_mm);
     const LensState state = state_of(position.name, position.asked_mm);
     const FirstOrder first = first_order(state, kLineD_nm);
-    CHECK(first.focal_length_mm == doctest::Approx(position.focal_length_mm).epsilon(0.001));
-    CHECK(first.back_focal_distance_mm == doctest::Approx(position.back_focal_distance_mm).epsilon(0.001));
-    CHECK(first.sensor_position_mm == doctest::Approx(first.back_focal_distance_mm).epsilon(1e-9));
+    CHECK(first.focal_length_mm == test::approx(position.focal_length_mm).epsilon(0.001));
+    CHECK(first.back_focal_distance_mm == test::approx(position.back_focal_distance_mm).epsilon(0.001));
+    CHECK(first.sensor_position_mm == test::approx(first.back_focal_distance_mm).epsilon(1e-9));
   }
 }
 
@@ -88,9 +89,9 @@ TEST_CASE("sensors") {
   for (const auto& [name, degrees] : half_field_deg) {
     CAPTURE(name);
     const LensState state = state_of(name);
-    CHECK(state.sensor_width_mm / state.sensor_height_mm == doctest::Approx(1.5));
+    CHECK(state.sensor_width_mm / state.sensor_height_mm == test::approx(1.5));
     CHECK(first_order(state, kLineD_nm).half_field_rad * 180.0 / 3.14159265358979 ==
-          doctest::Approx(degrees).epsilon(1e-3));
+          test::approx(degrees).epsilon(1e-3));
   }
   for (const char* name : {"canon-70-200", "nikon-80-200", "planar-50"}) {
     CHECK(state_of(name).sensor_width_mm == 36.0);
@@ -182,7 +183,7 @@ TEST_CASE("named glasses agree with what the patents print") {
       CHECK(std::holds_alternative<CatalogueGlass>(glasses[i].dispersion) == named);
       if (named) CHECK(glasses[i].name == printed.name);
       CHECK(std::abs(refractive_index(glasses[i], table.wavelength_nm) - printed.n) < 1e-5);
-      CHECK(glass_figures(glasses[i]).v_d == doctest::Approx(printed.v_d).epsilon(0.002));
+      CHECK(glass_figures(glasses[i]).v_d == test::approx(printed.v_d).epsilon(0.002));
     }
   }
 }

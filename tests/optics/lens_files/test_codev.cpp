@@ -18,6 +18,7 @@
 #include "optics/lens_files/reader_checks.h"
 #include "optics/lens_files/sample_lens.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::codev {
 namespace {
@@ -81,10 +82,10 @@ TEST_CASE("a CODE V file in every detail") {
   CHECK(s[0].thickness_mm == 6.0);
   CHECK(s[0].semi_diameter_mm == 9.0);
   CHECK(s[0].glass_after.name == "NBK7_SCHOTT");
-  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-6));
+  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == test::approx(1.5168).epsilon(1e-6));
   CHECK(s[1].glass_after.name == "OWN");
-  CHECK(refractive_index(s[1].glass_after, 587.6) == doctest::Approx(1.62));
-  CHECK(refractive_index(s[1].glass_after, 486.1) == doctest::Approx(1.63));
+  CHECK(refractive_index(s[1].glass_after, 587.6) == test::approx(1.62));
+  CHECK(refractive_index(s[1].glass_after, 486.1) == test::approx(1.63));
   CHECK(s[1].semi_diameter_mm == 9.0);  // not the edge
   CHECK(s[2].thickness_mm == 3.0);      // 5, and -2 of the dummy
   CHECK(s[3].kind == SurfaceKind::Stop);
@@ -94,10 +95,10 @@ TEST_CASE("a CODE V file in every detail") {
   CHECK(s[4].source_line == 29);
   CHECK(s[4].semi_diameter_mm > 4.0);  // for the beam
   CHECK(lens.stated.wavelength_nm == 550.0);
-  CHECK(lens.f_number == doctest::Approx(configure_lens(lens)->focal_length_mm / 10.0).epsilon(1e-12));
+  CHECK(lens.f_number == test::approx(configure_lens(lens)->focal_length_mm / 10.0).epsilon(1e-12));
   CHECK(lens.sensor_distance_mm == 75.0);  // 75.5, and -0.5 of defocus
   CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) ==
-        doctest::Approx(2.0 * configure_lens(lens)->focal_length_mm * std::tan(5.0 * std::numbers::pi / 180.0)));
+        test::approx(2.0 * configure_lens(lens)->focal_length_mm * std::tan(5.0 * std::numbers::pi / 180.0)));
   REQUIRE(lens.warnings.size() == 1);
   CHECK(lens.warnings[0] == "the command Surface_label (line 20) is not known and left out");
   CHECK(looks_like_seq(kSeq));
@@ -127,12 +128,12 @@ TEST_CASE("CODE V's apertures, fields and units") {
   CHECK(must_read(seq("EPD   10.0", "NA 0.0625")).f_number == 8.0);
   CHECK(must_read(seq("  stop\n", "  stop\n CIR 4\n", seq("EPD   10.0", ""))).surfaces[3].semi_diameter_mm == 4.0);
   const Prescription inches = must_read(seq("DIM   M", "DIM I"));
-  CHECK(inches.surfaces[0].thickness_mm == doctest::Approx(6 * 25.4));
-  CHECK(inches.surfaces[4].shape.powers[3] / (-2e-6 / (25.4 * 25.4 * 25.4)) == doctest::Approx(1.0));
+  CHECK(inches.surfaces[0].thickness_mm == test::approx(6 * 25.4));
+  CHECK(inches.surfaces[4].shape.powers[3] / (-2e-6 / (25.4 * 25.4 * 25.4)) == test::approx(1.0));
   const Prescription heights = must_read(seq("XAN   0.0 3.0\nYAN   0.0 4.0", "YIM 0 7; XIM 0 0"));
-  CHECK(std::hypot(heights.sensor_width_mm, heights.sensor_height_mm) == doctest::Approx(14.0));
+  CHECK(std::hypot(heights.sensor_width_mm, heights.sensor_height_mm) == test::approx(14.0));
   const Prescription one = must_read(seq("XAN   0.0 3.0\nYAN   0.0 4.0", "YAN F2 5"));
-  CHECK(one.sensor_width_mm == doctest::Approx(must_read(kSeq).sensor_width_mm));
+  CHECK(one.sensor_width_mm == test::approx(must_read(kSeq).sensor_width_mm));
   check_warns(must_read(seq("REF   2", "TEM 40")), "indices at 40 deg C (line 6)");
   CHECK(must_read(seq("REF   2", "")).stated.wavelength_nm == 550.0);  // the middle one
   check_warns(must_read(seq("0.1e14", "5000")), "designed for an object 5000 mm");
@@ -173,7 +174,7 @@ TEST_CASE("cylinders and toroids of CODE V") {
   const Surface other = shape("XTO; CUX 0.02; K -1");
   CHECK(other.curvature_per_mm == 0.02);
   CHECK(other.shape.curvature_x_per_mm == 1.0 / 200.0);
-  CHECK(other.shape.rotation_rad == doctest::Approx(0.5 * std::numbers::pi));
+  CHECK(other.shape.rotation_rad == test::approx(0.5 * std::numbers::pi));
   const Surface biconic = shape("AAS; CUX 0.02; KX -2; KY -1");
   CHECK(biconic.shape.kind == ShapeKind::Biconic);
   CHECK(biconic.shape.conic_x == -2.0);
@@ -187,10 +188,10 @@ TEST_CASE("decentres of CODE V") {
   const double tilt = 2.0 * std::numbers::pi / 180.0;
   const Prescription alone = must_read(seq("  ASP\n", "  ASP\n  YDE 0.5; ADE 2; DAR\n"));
   CHECK(alone.surfaces[4].pose.shift_mm == Vec3{0, 0.5, 0});
-  CHECK(alone.surfaces[4].pose.axis.y == doctest::Approx(std::sin(tilt)));
+  CHECK(alone.surfaces[4].pose.axis.y == test::approx(std::sin(tilt)));
   CHECK(alone.surfaces[5].pose == SurfacePose{});
   const Prescription about_y = must_read(seq("  ASP\n", "  ASP\n  BDE 2; DAR\n"));
-  CHECK(about_y.surfaces[4].pose.axis.x == doctest::Approx(-std::sin(tilt)));
+  CHECK(about_y.surfaces[4].pose.axis.x == test::approx(-std::sin(tilt)));
   // Without DAR all further surfaces are tilted, and the sensor must not be.
   check_refused(seq("  ASP\n", "  ASP\n  YDE 0.5; ADE 2\n"), 36, "the image surface stands 3.24 mm");
   const Prescription back = must_read(seq("  PIM", "YDE -0.5", seq("  ASP\n", "  ASP\n  YDE 0.5\n")));
@@ -204,8 +205,8 @@ TEST_CASE("glasses of CODE V") {
   CHECK(glass("500.7") == Glass{"500.7", ModelGlass{1.5, 70.0, 0.0}});
   CHECK(glass("1.5168:64.17") == Glass{"1.5168:64.17", ModelGlass{1.5168, 64.17, 0.0}});
   CHECK(glass("1.5168 64.17") == Glass{"", ModelGlass{1.5168, 64.17, 0.0}});
-  CHECK(refractive_index(glass("517642"), kLineD_nm) == doctest::Approx(1.517));
-  CHECK(refractive_index(glass("N-SK16_SCHOTT"), kLineD_nm) == doctest::Approx(1.62041).epsilon(1e-6));
+  CHECK(refractive_index(glass("517642"), kLineD_nm) == test::approx(1.517));
+  CHECK(refractive_index(glass("N-SK16_SCHOTT"), kLineD_nm) == test::approx(1.62041).epsilon(1e-6));
   check_warns(must_read(seq("620.364", "CAF2_DAIMON-20")), "no catalogue DAIMON-20 is known (line 29)");
   const auto own = [](const std::string& row) {
     const std::string text = seq("'OWN' 1.61 1.62 1.63", row);
@@ -213,9 +214,9 @@ TEST_CASE("glasses of CODE V") {
   };
   // Schott's old formula of BK7, and Sellmeier's of N-BK7.
   CHECK(own("'OWN' LAU 2.2718929 -1.0108077e-2 1.0592509e-2 2.0816965e-4 -7.6472538e-6 4.9240991e-7") ==
-        doctest::Approx(1.5168).epsilon(1e-5));
+        test::approx(1.5168).epsilon(1e-5));
   CHECK(own("'OWN' GMS 1.03961212 0.00600069867 0.231792344 0.0200179144 1.01046945 103.560653") ==
-        doctest::Approx(1.5168).epsilon(1e-5));
+        test::approx(1.5168).epsilon(1e-5));
   check_refused(seq("'OWN' 1.61 1.62 1.63", "'OWN' 1.61 1.62"), 14, "3 wavelengths (PWL) but 2 indices");
   check_refused(seq("'OWN' 1.61 1.62 1.63", "'OWN' XYZ 1.61 1.62"), 14, "the dispersion formula XYZ");
   check_refused(seq("620.364", "NOSUCH_SCHOTT"), 29, "--catalogue");
@@ -370,7 +371,7 @@ TEST_CASE("CODE V's samples: read, or refused for what they hold") {
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    CHECK(state->focal_length_mm == doctest::Approx(outcome.focal_length_mm).epsilon(1e-4));
+    CHECK(state->focal_length_mm == test::approx(outcome.focal_length_mm).epsilon(1e-4));
     const std::string text = write_lens_toml(*lens);
     const auto again = read_lens_toml(text, "b.toml");
     REQUIRE_MESSAGE(again.has_value(), (again ? "" : again.error().to_string()));

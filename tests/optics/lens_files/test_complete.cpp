@@ -9,6 +9,7 @@
 
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/plain_number.h"
+#include "support/approx.h"
 
 namespace contrejour::test::complete {
 namespace {
@@ -36,7 +37,7 @@ TEST_CASE("rims that cross shrink to where they meet, and a warning says so") {
   const auto whole = completed(lens);
   REQUIRE(whole);
   for (const std::size_t k : {0u, 1u})
-    CHECK(whole->surfaces[k].semi_diameter_mm == doctest::Approx(kMeeting_mm).epsilon(1e-9));
+    CHECK(whole->surfaces[k].semi_diameter_mm == test::approx(kMeeting_mm).epsilon(1e-9));
   REQUIRE(whole->warnings.size() == 2);
   CHECK(whole->warnings[0].find("surface 1 (line 7)") != std::string::npos);
   CHECK(configure_lens(*whole)->warnings.size() == 2);
@@ -80,7 +81,7 @@ TEST_CASE("a sphere drawn beyond its own radius ends there") {
   lens.surfaces[1].curvature_per_mm = 0.0;
   const auto whole = completed(lens);
   REQUIRE(whole);
-  CHECK(whole->surfaces[0].semi_diameter_mm == doctest::Approx(18.0));
+  CHECK(whole->surfaces[0].semi_diameter_mm == test::approx(18.0));
   CHECK(whole->surfaces[0].semi_diameter_mm <= 18.0);
 }
 
@@ -97,9 +98,9 @@ TEST_CASE("an f-number that is not given is the stop's") {
   const auto state = configure_lens(*whole);
   REQUIRE(state);
   CHECK(state->warnings.empty());
-  CHECK(state->stop_radius_mm == doctest::Approx(5.0).epsilon(1e-6));
+  CHECK(state->stop_radius_mm == test::approx(5.0).epsilon(1e-6));
   // Thin lens: the pupil is the stop's 10 mm, larger by f / (f - 7).
-  CHECK(whole->f_number == doctest::Approx(100.0 / (10.0 * 100.0 / 93.0)).epsilon(0.02));
+  CHECK(whole->f_number == test::approx(100.0 / (10.0 * 100.0 / 93.0)).epsilon(0.02));
 }
 
 TEST_CASE("semi-diameters that are not given are those of the beam") {
@@ -113,11 +114,11 @@ TEST_CASE("semi-diameters that are not given are those of the beam") {
   CHECK(whole->warnings.empty());
   const auto state = configure_lens(*whole);
   REQUIRE(state);
-  CHECK(state->f_number == doctest::Approx(10.0));
+  CHECK(state->f_number == test::approx(10.0));
   // At the back of a thin lens 5 mm before the stop: the axial beam's 5 mm and the chief ray's 5 mm * tan(field).
-  CHECK(whole->surfaces[1].semi_diameter_mm == doctest::Approx(5.0 + 5.0 * std::tan(field_rad)).epsilon(0.03));
-  CHECK(state->stop_radius_mm == doctest::Approx(whole->surfaces[2].semi_diameter_mm));
-  CHECK(state->stop_radius_mm == doctest::Approx(5.0 * 0.93).epsilon(0.02));
+  CHECK(whole->surfaces[1].semi_diameter_mm == test::approx(5.0 + 5.0 * std::tan(field_rad)).epsilon(0.03));
+  CHECK(state->stop_radius_mm == test::approx(whole->surfaces[2].semi_diameter_mm));
+  CHECK(state->stop_radius_mm == test::approx(5.0 * 0.93).epsilon(0.02));
 }
 
 TEST_CASE("semi-diameters that are not given, and no beam, are an error with the position") {

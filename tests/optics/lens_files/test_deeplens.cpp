@@ -5,6 +5,7 @@
 
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::deeplens {
 namespace {
@@ -33,7 +34,7 @@ TEST_CASE("a DeepLens lens in every detail") {
   CHECK(lens.source == "US 1");
   CHECK(lens.stated.focal_length_mm == 88.3);
   CHECK(lens.stated.back_focal_distance_mm == 79.0);
-  CHECK(lens.sensor_width_mm == doctest::Approx(14.1421).epsilon(1e-5));
+  CHECK(lens.sensor_width_mm == test::approx(14.1421).epsilon(1e-5));
   CHECK(lens.sensor_height_mm == lens.sensor_width_mm);
   REQUIRE(lens.surfaces.size() == 5);
   const auto& s = lens.surfaces;
@@ -45,12 +46,12 @@ TEST_CASE("a DeepLens lens in every detail") {
   CHECK(s[1].source_line == 5);
   CHECK(s[2].kind == SurfaceKind::Stop);
   CHECK(s[2].semi_diameter_mm == 9.7);
-  CHECK(s[3].semi_diameter_mm == doctest::Approx(14.1421).epsilon(1e-5));
+  CHECK(s[3].semi_diameter_mm == test::approx(14.1421).epsilon(1e-5));
   CHECK(s[3].aperture.kind == ApertureKind::Rectangle);
   CHECK(s[3].aperture.half_mm == Vec2{10.0, 10.0});
-  CHECK(refractive_index(s[3].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-5));
+  CHECK(refractive_index(s[3].glass_after, kLineD_nm) == test::approx(1.5168).epsilon(1e-5));
   CHECK(s[4].curvature_per_mm == 0.0);
-  CHECK(lens.f_number == doctest::Approx(4.4).epsilon(0.05));  // that of the aperture's full opening
+  CHECK(lens.f_number == test::approx(4.4).epsilon(0.05));  // that of the aperture's full opening
   CHECK(lens.warnings.empty());
   check_round_trip(lens);
 }
@@ -63,7 +64,7 @@ TEST_CASE("DeepLens without an aperture, and with another f-number than its own"
   CHECK(lens.surfaces[0].semi_diameter_mm == 11.0);
   CHECK(lens.warnings.at(0).find("narrowest surface (line 4)") != std::string::npos);
   const Prescription other = read_or_fail(read_json_lens, edited("\"fnum\": 4.4", "\"fnum\": 2.8"));
-  CHECK(other.f_number == doctest::Approx(4.4).epsilon(0.05));
+  CHECK(other.f_number == test::approx(4.4).epsilon(0.05));
   CHECK(other.warnings.at(0).find("fnum is 2.8 (line 2)") != std::string::npos);
 }
 
@@ -115,7 +116,7 @@ TEST_CASE("DeepLens' samples") {
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     if (const auto known = kFocal_mm.find(stem); known != kFocal_mm.end())
-      CHECK(state->focal_length_mm == doctest::Approx(known->second).epsilon(2e-4));
+      CHECK(state->focal_length_mm == test::approx(known->second).epsilon(2e-4));
     check_round_trip(*lens);
   }
   CHECK(read == 23);

@@ -7,6 +7,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::flaresim {
 namespace {
@@ -108,7 +109,7 @@ TEST_CASE("FlareSim's heights are what the stated f-number needs") {
   CHECK(with("14", "12.2", "").surfaces[2].semi_diameter_mm == 12.2);
   CHECK(with("34", "28", "").surfaces[2].semi_diameter_mm == 14.0);
   // A value of 0 is sized for the f-number.
-  CHECK(with("0", "0", "# f/4\n").surfaces[2].semi_diameter_mm == doctest::Approx(12.2).epsilon(0.02));
+  CHECK(with("0", "0", "# f/4\n").surfaces[2].semi_diameter_mm == test::approx(12.2).epsilon(0.02));
 }
 
 TEST_CASE("FlareSim: an opening drawn within a lens, a lens without an image") {

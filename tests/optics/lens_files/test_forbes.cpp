@@ -12,6 +12,7 @@
 #include "optics/lens_files/reader_checks.h"
 #include "optics/lens_files/sequential/forbes.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::forbes {
 namespace {
@@ -36,17 +37,16 @@ TEST_CASE("the first Q polynomials are those that Forbes prints") {
     CAPTURE(x);
     // Forbes 2007, (A.4) and the list of Qcon.
     CHECK(term(ForbesKind::Bfs, 0, x) == 1.0);
-    CHECK(term(ForbesKind::Bfs, 1, x) == doctest::Approx((13.0 - 16.0 * x) / std::sqrt(19.0)).epsilon(1e-13));
+    CHECK(term(ForbesKind::Bfs, 1, x) == test::approx((13.0 - 16.0 * x) / std::sqrt(19.0)).epsilon(1e-13));
     CHECK(term(ForbesKind::Bfs, 2, x) ==
-          doctest::Approx(std::sqrt(2.0 / 95.0) * (29.0 - 4.0 * x * (25.0 - 19.0 * x))).epsilon(1e-13));
+          test::approx(std::sqrt(2.0 / 95.0) * (29.0 - 4.0 * x * (25.0 - 19.0 * x))).epsilon(1e-13));
     CHECK(term(ForbesKind::Bfs, 3, x) ==
-          doctest::Approx(std::sqrt(2.0 / 2545.0) * (207.0 - 4.0 * x * (315.0 - x * (577.0 - 320.0 * x))))
-              .epsilon(1e-13));
+          test::approx(std::sqrt(2.0 / 2545.0) * (207.0 - 4.0 * x * (315.0 - x * (577.0 - 320.0 * x)))).epsilon(1e-13));
     CHECK(term(ForbesKind::Con, 0, x) == 1.0);
-    CHECK(term(ForbesKind::Con, 1, x) == doctest::Approx(6.0 * x - 5.0).epsilon(1e-13));
-    CHECK(term(ForbesKind::Con, 2, x) == doctest::Approx(15.0 - 14.0 * x * (3.0 - 2.0 * x)).epsilon(1e-13));
+    CHECK(term(ForbesKind::Con, 1, x) == test::approx(6.0 * x - 5.0).epsilon(1e-13));
+    CHECK(term(ForbesKind::Con, 2, x) == test::approx(15.0 - 14.0 * x * (3.0 - 2.0 * x)).epsilon(1e-13));
     CHECK(term(ForbesKind::Con, 3, x) ==
-          doctest::Approx(-(35.0 - 12.0 * x * (14.0 - x * (21.0 - 10.0 * x)))).epsilon(1e-13));
+          test::approx(-(35.0 - 12.0 * x * (14.0 - x * (21.0 - 10.0 * x)))).epsilon(1e-13));
   }
 }
 
@@ -68,8 +68,8 @@ TEST_CASE("slopes of Qbfs are orthogonal with their weight, sags of Qcon with th
       }
       CAPTURE(m);
       CAPTURE(n);
-      CHECK(slopes == doctest::Approx(m == n ? 1.0 : 0.0).epsilon(1e-5));
-      CHECK(sags == doctest::Approx(m == n ? 1.0 / (2.0 * static_cast<double>(m) + 5.0) : 0.0).epsilon(1e-4));
+      CHECK(slopes == test::approx(m == n ? 1.0 : 0.0).epsilon(1e-5));
+      CHECK(sags == test::approx(m == n ? 1.0 / (2.0 * static_cast<double>(m) + 5.0) : 0.0).epsilon(1e-4));
     }
   }
 }
@@ -89,7 +89,7 @@ TEST_CASE("even powers are the departure, along a sphere's normal or the axis") 
         (0.1 - 0.03 * (13.0 - 16.0 * u2) / std::sqrt(19.0) +
          0.02 * std::sqrt(2.0 / 95.0) * (29.0 - 4.0 * u2 * (25.0 - 19.0 * u2)) +
          0.004 * std::sqrt(2.0 / 2545.0) * (207.0 - 4.0 * u2 * (315.0 - u2 * (577.0 - 320.0 * u2))));
-    CHECK(sum == doctest::Approx(expected).epsilon(1e-8));
+    CHECK(sum == test::approx(expected).epsilon(1e-8));
   }
   CHECK(powers_of_forbes(c, 0.3, {ForbesKind::Con, 8.0, {0.1, 0.2}}, 7.0)->off < 1e-13);
   CHECK_FALSE(powers_of_forbes(c, 0.0, bfs, 21.0).has_value());
@@ -103,8 +103,8 @@ TEST_CASE("Zemax' Q-type surfaces: Qcon as the even asphere it is, and what is w
   REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
   const auto glass = std::ranges::find(lens->surfaces, SurfaceKind::Refracting, &Surface::kind);
   // u^4 (0.2 + 0.1 (6 u^2 - 5)) with u = r / 10.
-  CHECK(glass->shape.powers[3] == doctest::Approx(-0.3e-4).epsilon(1e-9));
-  CHECK(glass->shape.powers[5] == doctest::Approx(0.6e-6).epsilon(1e-9));
+  CHECK(glass->shape.powers[3] == test::approx(-0.3e-4).epsilon(1e-9));
+  CHECK(glass->shape.powers[5] == test::approx(0.6e-6).epsilon(1e-9));
   const auto refused = [&](const std::string& surface, const std::string& words) {
     const auto none = read(surface);
     REQUIRE_FALSE(none.has_value());

@@ -6,6 +6,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::lens_xml {
 namespace {
@@ -145,9 +146,9 @@ TEST_CASE("XML samples: focal lengths and focus as computed by another program")
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     const FirstOrder computed = first_order(*state, kLineD_nm);
-    CHECK(computed.focal_length_mm == doctest::Approx(figures.first).epsilon(6e-4));
-    CHECK(computed.back_focal_distance_mm == doctest::Approx(figures.second).epsilon(6e-4));
-    CHECK(lens->surfaces[0].semi_diameter_mm == doctest::Approx(front_mm(file)).epsilon(1e-6));
+    CHECK(computed.focal_length_mm == test::approx(figures.first).epsilon(6e-4));
+    CHECK(computed.back_focal_distance_mm == test::approx(figures.second).epsilon(6e-4));
+    CHECK(lens->surfaces[0].semi_diameter_mm == test::approx(front_mm(file)).epsilon(1e-6));
     check_round_trip(*lens);
   }
 }

@@ -5,6 +5,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::lentil {
 namespace {
@@ -64,7 +65,7 @@ TEST_CASE("a lens of Lentil's database in every detail") {
   CHECK(s[2].semi_diameter_mm == 8.0);
   CHECK(s[3].curvature_per_mm == 0.0);
   CHECK(s[3].glass_after.name == "SF5");  // without an index: the catalogue's
-  CHECK(refractive_index(s[3].glass_after, kLineD_nm) == doctest::Approx(1.6727).epsilon(1e-4));
+  CHECK(refractive_index(s[3].glass_after, kLineD_nm) == test::approx(1.6727).epsilon(1e-4));
   CHECK(s[4].curvature_per_mm == 0.0);
   CHECK(lens.f_number > 3.0);  // that of the iris's full opening
   check_round_trip(lens);
@@ -113,7 +114,7 @@ TEST_CASE("Lentil's samples") {
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-3));
+    CHECK(state->focal_length_mm == test::approx(focal_mm).epsilon(1e-3));
     check_round_trip(*lens);
   }
   check_warns(*read_lens(path->string() + "#9994"), "no surface is the stop");  // a single lens

@@ -15,6 +15,7 @@
 #include "optics/lens_files/lost_gap.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::missing_stop {
 namespace {
@@ -68,7 +69,7 @@ TEST_CASE("a stop that a file does not mark is put where the rims say") {
     CHECK(blind.surfaces.size() == lens->surfaces.size());
     same_gap += stop_of(blind) == stop_of(*lens);
     near += std::abs(vertex_mm(blind, stop_of(blind)) - vertex_mm(*lens, stop_of(*lens))) < 0.1 * length_mm(*lens);
-    CHECK(length_mm(blind) == doctest::Approx(length_mm(*lens)).epsilon(1e-12));
+    CHECK(length_mm(blind) == test::approx(length_mm(*lens)).epsilon(1e-12));
   }
   MESSAGE("of ", primes, " primes ", same_gap, " have it in their own gap, ", near, " within a tenth of the length");
   CHECK(same_gap * 10 >= primes * 7);
@@ -88,9 +89,8 @@ TEST_CASE("a lens without a gap for an iris has its stop in front, a plane openi
   check_warns(opened, "opening 3 (line 6)");
   // Without an f-number the stop is as wide as the rims allow.
   const Prescription untold = read_or_fail(read_flaresim, "name: x\nsurfaces:\n60 5 1.5 60 8 0\n-200 80 1 0 8 0\n");
-  CHECK(untold.surfaces[0].semi_diameter_mm == doctest::Approx(8.0).epsilon(1e-12));
-  CHECK(configure_lens(untold)->f_number ==
-        doctest::Approx(configure_lens(untold)->focal_length_mm / 16.0).epsilon(1e-3));
+  CHECK(untold.surfaces[0].semi_diameter_mm == test::approx(8.0).epsilon(1e-12));
+  CHECK(configure_lens(untold)->f_number == test::approx(configure_lens(untold)->focal_length_mm / 16.0).epsilon(1e-3));
 }
 
 TEST_CASE("a stop in a gap that zooming changes moves with the lens in front of it") {
@@ -113,7 +113,7 @@ TEST_CASE("a stop in a gap that zooming changes moves with the lens in front of 
     double total_mm = 0.0, own_mm = 0.0;
     for (const auto& [index, thickness_mm] : blind.zoom[z].thickness_mm) total_mm += thickness_mm;
     for (const auto& [index, thickness_mm] : before.zoom[z].thickness_mm) own_mm += thickness_mm;
-    CHECK(total_mm == doctest::Approx(own_mm).epsilon(1e-12));
+    CHECK(total_mm == test::approx(own_mm).epsilon(1e-12));
     CHECK(own.has_value());
   }
 }

@@ -12,6 +12,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::optical_bench {
 namespace {
@@ -66,8 +67,8 @@ TEST_CASE("an Optical Bench file in every detail") {
   CHECK(lens->name == "Small Zoom 50-60mm f/4");
   CHECK(lens->source == "US 1,234 Example 5");
   CHECK(lens->f_number == 4.0);
-  CHECK(lens->sensor_width_mm == doctest::Approx(36.0).epsilon(1e-5));
-  CHECK(lens->sensor_height_mm == doctest::Approx(24.0).epsilon(1e-5));
+  CHECK(lens->sensor_width_mm == test::approx(36.0).epsilon(1e-5));
+  CHECK(lens->sensor_height_mm == test::approx(24.0).epsilon(1e-5));
   REQUIRE(lens->surfaces.size() == 8);
   const auto& s = lens->surfaces;
   CHECK(s[0].curvature_per_mm == 1.0 / 26.5);
@@ -162,12 +163,12 @@ TEST_CASE("Optical Bench's samples: read, and as their figures say") {
       for (const ZoomPosition& position : lens->zoom) {
         const auto zoomed = configure_lens(*lens, {.focal_length_mm = position.focal_length_mm});
         REQUIRE_MESSAGE(zoomed.has_value(), (zoomed ? "" : zoomed.error().to_string()));
-        CHECK(zoomed->focal_length_mm == doctest::Approx(position.focal_length_mm).epsilon(0.02));
+        CHECK(zoomed->focal_length_mm == test::approx(position.focal_length_mm).epsilon(0.02));
       }
       const FirstOrder figures = first_order(*state, kLineD_nm);
-      CHECK(figures.focal_length_mm == doctest::Approx(*lens->stated.focal_length_mm).epsilon(0.02));
+      CHECK(figures.focal_length_mm == test::approx(*lens->stated.focal_length_mm).epsilon(0.02));
       if (lens->stated.back_focal_distance_mm)
-        CHECK(figures.back_focal_distance_mm == doctest::Approx(*lens->stated.back_focal_distance_mm).epsilon(0.02));
+        CHECK(figures.back_focal_distance_mm == test::approx(*lens->stated.back_focal_distance_mm).epsilon(0.02));
       ++read;
     }
   }

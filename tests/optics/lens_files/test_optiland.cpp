@@ -10,6 +10,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::optiland {
 namespace {
@@ -55,7 +56,7 @@ void check_refused(const std::string& text, int line, const std::string& words) 
 TEST_CASE("an Optiland file in every detail") {
   const Prescription lens = read_or_fail(read_json_lens, kSample);
   CHECK(lens.name == "a file");
-  CHECK(lens.stated.wavelength_nm == doctest::Approx(550.0));
+  CHECK(lens.stated.wavelength_nm == test::approx(550.0));
   REQUIRE(lens.surfaces.size() == 5);
   const auto& s = lens.surfaces;
   CHECK(s[0].curvature_per_mm == 1.0 / 50.0);
@@ -83,10 +84,10 @@ TEST_CASE("an Optiland file in every detail") {
   CHECK(s[4].shape.powers == std::vector<double>{0, 0, 0, 1e-8});
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
-  CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 10.0).epsilon(1e-9));
+  CHECK(lens.f_number == test::approx(state->focal_length_mm / 10.0).epsilon(1e-9));
   // The widest field is 5 degrees off the axis.
   CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) ==
-        doctest::Approx(2.0 * state->focal_length_mm * std::tan(5.0 / 57.29577951)).epsilon(1e-6));
+        test::approx(2.0 * state->focal_length_mm * std::tan(5.0 / 57.29577951)).epsilon(1e-6));
   check_round_trip(lens);
 }
 
@@ -95,8 +96,8 @@ TEST_CASE("Optiland's tilted and decentred surfaces, apertures of other kinds") 
   const Prescription lens =
       read_or_fail(read_json_lens, edited(position, R"("cs": {"x": 0.5, "y": -0.25, "z": 4.0, "rx": 0.1)"));
   CHECK(lens.surfaces[1].pose.shift_mm == Vec3{0.5, -0.25, 0.0});
-  CHECK(lens.surfaces[1].pose.axis.y == doctest::Approx(-std::sin(0.1)));
-  CHECK(lens.surfaces[1].pose.axis.z == doctest::Approx(std::cos(0.1)));
+  CHECK(lens.surfaces[1].pose.axis.y == test::approx(-std::sin(0.1)));
+  CHECK(lens.surfaces[1].pose.axis.z == test::approx(std::cos(0.1)));
   CHECK(lens.surfaces[3].pose == SurfacePose{});
   const Prescription stop =
       read_or_fail(read_json_lens, edited("\"EPD\", \"value\": 10", "\"float_by_stop_size\", \"value\": 8"));
@@ -139,7 +140,7 @@ TEST_CASE("Optiland's samples: focal lengths and f-numbers of its own") {
     CHECK(lens->name == file);
     const auto state = configure_lens(*lens);
     REQUIRE(state.has_value());
-    CHECK(first_order(*state, lens->stated.wavelength_nm).focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-6));
+    CHECK(first_order(*state, lens->stated.wavelength_nm).focal_length_mm == test::approx(focal_mm).epsilon(1e-6));
     check_round_trip(*lens);
   }
   const auto table = shared_data("lenses/optiland/optiland_samples.json");
@@ -217,7 +218,7 @@ TEST_CASE("Optiland's sample scripts, as it would save them: its asserted focal 
     // For CaF2 Optiland uses another page.
     const double tolerance = name == "TelescopeObjective48Inch" ? 3e-4 : 1e-6;
     CHECK(first_order(*state, lens->stated.wavelength_nm).focal_length_mm ==
-          doctest::Approx(system["expected_f2"].get<double>()).epsilon(tolerance));
+          test::approx(system["expected_f2"].get<double>()).epsilon(tolerance));
     check_round_trip(*lens);
     ++compared;
   }

@@ -10,6 +10,7 @@
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::pbrt {
 namespace {
@@ -54,7 +55,7 @@ TEST_CASE("a PBRT lens in every detail") {
   // Wide open, the stop has its full width.
   const auto state = configure_lens(*lens);
   REQUIRE(state.has_value());
-  CHECK(state->stop_radius_mm == doctest::Approx(5.0).epsilon(1e-6));
+  CHECK(state->stop_radius_mm == test::approx(5.0).epsilon(1e-6));
   CHECK(state->warnings.empty());
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("PBRT's samples: as their names say") {
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(0.03));
+    CHECK(state->focal_length_mm == test::approx(focal_mm).epsilon(0.03));
     CHECK(lens->f_number > 1.5);
     CHECK(lens->f_number < 9.0);
   }

@@ -9,6 +9,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::ray_optics {
 namespace {
@@ -79,7 +80,7 @@ TEST_CASE("a ray-optics file in every detail") {
   CHECK(s[0].thickness_mm == 4.0);
   CHECK(s[0].source_line == 4);
   CHECK(s[0].glass_after.name == "N-BK7");
-  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-6));
+  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == test::approx(1.5168).epsilon(1e-6));
   CHECK(s[1].kind == SurfaceKind::Stop);
   CHECK(s[1].thickness_mm == 0.0);
   CHECK(s[2].shape.conic == -0.75);
@@ -91,7 +92,7 @@ TEST_CASE("a ray-optics file in every detail") {
   CHECK(s[4].pose == SurfacePose{});
   CHECK(s[4].curvature_per_mm == -0.002);
   CHECK(s[4].shape.curvature_x_per_mm == -0.001);
-  CHECK(s[4].shape.rotation_rad == doctest::Approx(1.5707963));
+  CHECK(s[4].shape.rotation_rad == test::approx(1.5707963));
   check_round_trip(lens);
 }
 
@@ -103,7 +104,7 @@ TEST_CASE("ray-optics' apertures: the first that is none of an obscuration, turn
       read_or_fail(read_json_lens, edited(object("Circular", R"("radius": 9.0)"), obscuration + rotated));
   CHECK(lens.surfaces[0].aperture.kind == ApertureKind::Ellipse);
   CHECK(lens.surfaces[0].aperture.half_mm == Vec2{9.0, 6.0});
-  CHECK(lens.surfaces[0].aperture.rotation_rad == doctest::Approx(0.5235987756));
+  CHECK(lens.surfaces[0].aperture.rotation_rad == test::approx(0.5235987756));
   CHECK(lens.surfaces[0].obscuration == Obscuration{{2, 2}, {}, 0.0});
   const std::string square =
       object("Rectangular", R"("x_half_width": 1.0, "y_half_width": 1.0, "is_obscuration": true)") + ", ";
@@ -132,10 +133,10 @@ TEST_CASE("ray-optics' media: a catalogue's other glass of that name, coefficien
     return read_or_fail(read_json_lens, text.replace(begin, end - begin, medium)).surfaces[0].glass_after;
   };
   const Glass hoya = with(object("HoyaGlass", R"("gname": "BSC7", "coefs": [2.56, 0, 0, 0, 0, 0])"));
-  CHECK(refractive_index(hoya, 500.0) == doctest::Approx(1.6).epsilon(1e-12));
+  CHECK(refractive_index(hoya, 500.0) == test::approx(1.6).epsilon(1e-12));
   const Glass table = with(
       object("InterpolatedMedium", R"("label": "t", "wvls": [400, 500, 700, 800], "rndx": [1.53, 1.52, 1.51, 1.505])"));
-  CHECK(refractive_index(table, 500.0) == doctest::Approx(1.52).epsilon(1e-12));
+  CHECK(refractive_index(table, 500.0) == test::approx(1.52).epsilon(1e-12));
   CHECK(with(object("ConstantIndex", R"("label": "c", "n": 1.6)")) == Glass{"c", ConstantIndex{1.6}});
   CHECK(with(object("Glass", R"("label": "g", "nd": 1.6, "vd": 50)")) == Glass{"g", ModelGlass{1.6, 50.0}});
 }
@@ -202,8 +203,8 @@ TEST_CASE("ray-optics' samples") {
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
     const FirstOrder figures = first_order(*state, lens->stated.wavelength_nm);
-    CHECK(figures.focal_length_mm == doctest::Approx(known->second.focal_mm).epsilon(known->second.tolerance));
-    CHECK(figures.back_focal_distance_mm == doctest::Approx(known->second.back_mm).epsilon(known->second.tolerance));
+    CHECK(figures.focal_length_mm == test::approx(known->second.focal_mm).epsilon(known->second.tolerance));
+    CHECK(figures.back_focal_distance_mm == test::approx(known->second.back_mm).epsilon(known->second.tolerance));
     check_round_trip(*lens);
     ++read;
   }

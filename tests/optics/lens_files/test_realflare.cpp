@@ -6,6 +6,7 @@
 #include "contrejour/expert/first_order.h"
 #include "optics/lens_files/reader_checks.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::realflare {
 namespace {
@@ -119,7 +120,7 @@ TEST_CASE("Realflare's samples") {
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    CHECK(state->focal_length_mm == doctest::Approx(focal_mm).epsilon(1e-3));
+    CHECK(state->focal_length_mm == test::approx(focal_mm).epsilon(1e-3));
     CHECK(lens->warnings.empty() == (file.front() != 'C'));  // of the Canon all heights are 450 or 550 mm
     check_round_trip(*lens);
   }

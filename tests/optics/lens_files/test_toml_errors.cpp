@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/lens.h"
+#include "support/approx.h"
 
 namespace contrejour::test::toml_errors {
 namespace {
@@ -193,8 +194,8 @@ TEST_CASE("half field in place of a sensor") {
   const auto lens = read_lens_toml(edited("sensor_mm = [36, 24]", "half_field_deg = 20"), "x.toml");
   REQUIRE(lens.has_value());
   // 60 mm tan 20 degrees = 21.838 mm: the half diagonal.
-  CHECK(std::hypot(lens->sensor_width_mm, lens->sensor_height_mm) / 2 == doctest::Approx(21.83821406).epsilon(1e-9));
-  CHECK(lens->sensor_width_mm / lens->sensor_height_mm == doctest::Approx(1.5));
+  CHECK(std::hypot(lens->sensor_width_mm, lens->sensor_height_mm) / 2 == test::approx(21.83821406).epsilon(1e-9));
+  CHECK(lens->sensor_width_mm / lens->sensor_height_mm == test::approx(1.5));
   check_edit("sensor_mm = [36, 24]", "sensor_mm = [36, 24]\nhalf_field_deg = 20", 1, "give the sensor either");
   check_edit("sensor_mm = [36, 24]", "half_field_deg = 89", 4, "half_field_deg is 89; give a number from 0.01 to 80");
   check_error(edited("[stated]\nfocal_length_mm = 60.0\n", "", edited("sensor_mm = [36, 24]", "half_field_deg = 20")),

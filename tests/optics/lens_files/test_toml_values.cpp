@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "contrejour/lens.h"
+#include "support/approx.h"
 
 namespace contrejour::test::toml_values {
 namespace {
@@ -73,7 +74,7 @@ TEST_CASE("every kind of coating and glass") {
         Coating{"", FilmStack{{{film_material("ZrO2"), 90.0}}}});
   CHECK(std::get<FilmStack>(coating_of("{ layers = [{ n = 2, waves = 0.5, at_nm = 600 }] }").films)
             .layers[0]
-            .thickness_nm == doctest::Approx(150.0));
+            .thickness_nm == test::approx(150.0));
   CHECK(coating_of("{ measured_nm = [450, 650], measured_deg = [0], reflectance = [0.01, 0.02] }") ==
         Coating{"", MeasuredCoating{{450.0, 650.0}, {0.0}, {0.01, 0.02}}});
   const auto glass_of = [](const std::string& value) {

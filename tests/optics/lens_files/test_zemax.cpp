@@ -15,6 +15,7 @@
 #include "optics/lens_files/reader_checks.h"
 #include "optics/lens_files/sample_lens.h"
 #include "shared_data.h"
+#include "support/approx.h"
 
 namespace contrejour::test::zemax {
 namespace {
@@ -111,7 +112,7 @@ TEST_CASE("a Zemax file in every detail") {
   CHECK(s[0].thickness_mm == 6.0);
   CHECK(s[0].semi_diameter_mm == 9.0);
   CHECK(s[0].glass_after.name == "N-BK7");
-  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == doctest::Approx(1.5168).epsilon(1e-6));
+  CHECK(refractive_index(s[0].glass_after, kLineD_nm) == test::approx(1.5168).epsilon(1e-6));
   CHECK(s[1].glass_after == Glass{"", ModelGlass{1.62, 36.4, 0.002}});
   CHECK(s[2].thickness_mm == 3.0);  // 5, and -2 of the dummy
   CHECK(is_air(s[2].glass_after));
@@ -125,11 +126,11 @@ TEST_CASE("a Zemax file in every detail") {
   CHECK(lens.stated.wavelength_nm == 550.0);
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
-  CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 10.0).epsilon(1e-12));
+  CHECK(lens.f_number == test::approx(state->focal_length_mm / 10.0).epsilon(1e-12));
   // The stop has the size that the f-number requires, not the file's own estimate of 4.9.
   CHECK(s[3].semi_diameter_mm == state->stop_radius_mm);
   // The image surface's semi-diameter is the picture's.
-  CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) == doctest::Approx(12.0));
+  CHECK(std::hypot(lens.sensor_width_mm, lens.sensor_height_mm) == test::approx(12.0));
   REQUIRE(lens.sensor_distance_mm.has_value());
   CHECK(*lens.sensor_distance_mm == 75.0);
   CHECK(looks_like_zmx(kZmx));
@@ -143,23 +144,23 @@ TEST_CASE("Zemax' apertures, fields and units") {
   CHECK(must_read(zmx("ENPD 10", "FNUM 8 0")).f_number == 8.0);
   const Prescription by_stop = must_read(zmx("ENPD 10", "FLOA"));
   CHECK(by_stop.surfaces[3].semi_diameter_mm == 4.9);
-  CHECK(by_stop.f_number == doctest::Approx(must_read(kZmx).f_number).epsilon(0.1));
+  CHECK(by_stop.f_number == test::approx(must_read(kZmx).f_number).epsilon(0.1));
   // A stop with a size that the designer fixed is not changed.
   CHECK(must_read(zmx("DIAM 4.9 0", "DIAM 5.5 1")).surfaces[3].semi_diameter_mm == 5.5);
   // Without the image's own semi-diameter, f tan of the widest field of the two that count (3, 4 degrees).
   const Prescription by_field = must_read(zmx("  DIAM 6\n", ""));
   const double f_mm = configure_lens(by_field)->focal_length_mm;
   CHECK(std::hypot(by_field.sensor_width_mm, by_field.sensor_height_mm) ==
-        doctest::Approx(2.0 * f_mm * std::tan(5.0 * 3.14159265358979 / 180.0)));
+        test::approx(2.0 * f_mm * std::tan(5.0 * 3.14159265358979 / 180.0)));
   const Prescription by_height = must_read(zmx("FTYP 0 0 2", "FTYP 3 0 2"));
-  CHECK(std::hypot(by_height.sensor_width_mm, by_height.sensor_height_mm) == doctest::Approx(10.0));
+  CHECK(std::hypot(by_height.sensor_width_mm, by_height.sensor_height_mm) == test::approx(10.0));
   check_warns(must_read(zmx("FTYP 0 0 2", "FTYP 0 0 1")), "no field off the axis");
   const Prescription inches = must_read(zmx("UNIT MM", "UNIT IN"));
   CHECK(inches.surfaces[0].curvature_per_mm == 0.02 / 25.4);
-  CHECK(inches.surfaces[0].thickness_mm == doctest::Approx(6 * 25.4));
-  CHECK(inches.surfaces[4].shape.powers[3] / (-2e-6 / (25.4 * 25.4 * 25.4)) == doctest::Approx(1.0));
+  CHECK(inches.surfaces[0].thickness_mm == test::approx(6 * 25.4));
+  CHECK(inches.surfaces[4].shape.powers[3] / (-2e-6 / (25.4 * 25.4 * 25.4)) == test::approx(1.0));
   CHECK(configure_lens(inches)->focal_length_mm ==
-        doctest::Approx(25.4 * configure_lens(must_read(kZmx))->focal_length_mm));
+        test::approx(25.4 * configure_lens(must_read(kZmx))->focal_length_mm));
   check_warns(must_read(zmx("0.55 1", "1.55 1")), "designed for 1550 nm");
   check_warns(must_read(zmx("DISZ 75", "DISZ 30")), "distant objects are in focus at");
   check_warns(must_read(zmx("ENVD 20 1 0", "ENVD 40 1 1")), "indices at 40 deg C");
@@ -169,7 +170,7 @@ TEST_CASE("Zemax' apertures, fields and units") {
   check_warns(near, "designed for an object 5000 mm in front");
   CHECK_FALSE(near.sensor_distance_mm.has_value());
   CHECK(must_read(zmx("ENPD 10", "OBNA 0.001", zmx("DISZ INFINITY", "DISZ 5000"))).f_number ==
-        doctest::Approx(near.f_number).epsilon(0.01));
+        test::approx(near.f_number).epsilon(0.01));
 }
 
 TEST_CASE("a stop on a surface of Zemax is a row of its own at its vertex") {
@@ -203,7 +204,7 @@ TEST_CASE("openings of Zemax stay, rims that are no circles too") {
   const Prescription cylinder =
       must_read(zmx("TYPE EVENASPH\n  CURV 0.005\n  CONI -1.5\n  PARM 1 1e-4\n  PARM 2 -2e-6\n  PARM 4 3e-10",
                     "TYPE TOROIDAL\n  CURV 0.1\n  SQAP 9 9"));
-  CHECK(cylinder.surfaces[4].semi_diameter_mm == doctest::Approx(10.0));
+  CHECK(cylinder.surfaces[4].semi_diameter_mm == test::approx(10.0));
   check_warns(cylinder, "goes on where the surface ends");
   const auto last = [](const std::string& rows) { return must_read(zmx("CLAP 0 7.5 0", rows)).surfaces[5]; };
   CHECK(last("OBSC 0 1 0").obscuration == Obscuration{{1, 1}, {}, 0.0});
@@ -239,7 +240,7 @@ TEST_CASE("shapes of Zemax") {
   CHECK(shape("ODDASPHE\n CURV 0.01\n PARM 3 1e-5").shape.powers == std::vector<double>{0, 0, 1e-5});
   const Surface extended = shape("XASPHERE\n CURV 0.01\n XDAT 1 3\n XDAT 2 10\n XDAT 4 0.5\n XDAT 9 7");
   REQUIRE(extended.shape.powers.size() == 4);
-  CHECK(extended.shape.powers[3] / 0.5e-4 == doctest::Approx(1.0));
+  CHECK(extended.shape.powers[3] / 0.5e-4 == test::approx(1.0));
   CHECK(shape("XOSPHERE\n CURV 0.01\n XDAT 1 3\n XDAT 2 1\n XDAT 5 1e-4").shape.powers ==
         std::vector<double>{0, 0, 1e-4});
   const Surface toroid = shape("TOROIDAL\n CURV 0.01\n CONI -1\n PARM 1 50\n PARM 3 1e-6");
@@ -286,11 +287,11 @@ SURF 11
   const double tilt = 2.0 * 3.14159265358979323846 / 180.0;
   // Right-handed about x: the axis goes down, and the back vertex with it.
   CHECK(front.shift_mm == Vec3{0, 0.5, 0});
-  CHECK(front.axis.y == doctest::Approx(-std::sin(tilt)));
-  CHECK(front.axis.z == doctest::Approx(std::cos(tilt)));
+  CHECK(front.axis.y == test::approx(-std::sin(tilt)));
+  CHECK(front.axis.z == test::approx(std::cos(tilt)));
   CHECK(front.axis.x == 0.0);
-  CHECK(back.shift_mm.y == doctest::Approx(0.5 - 3.0 * std::sin(tilt)));
-  CHECK(back.shift_mm.z == doctest::Approx(3.0 * std::cos(tilt) - 3.0));
+  CHECK(back.shift_mm.y == test::approx(0.5 - 3.0 * std::sin(tilt)));
+  CHECK(back.shift_mm.z == test::approx(3.0 * std::cos(tilt) - 3.0));
   CHECK(lens.surfaces[4].thickness_mm == 3.0);
   CHECK(lens.sensor_distance_mm == 75.0);
   CHECK(lens.surfaces[3].pose == SurfacePose{});
@@ -306,7 +307,7 @@ TEST_CASE("a turn about the axis turns a cylinder") {
           "SURF 6\n  TYPE COORDBRK\n  PARM 5 30\n  DISZ 0\nSURF 7\n  TYPE TOROIDAL\n  CURV 0.005");
   const Prescription lens = must_read(zmx("SURF 8\n  CURV 0\n  DISZ 0", "SURF 9\n  CURV 0\n  DISZ 0",
                                           zmx("SURF 7\n  CURV 0\n  DISZ 75", "SURF 8\n  CURV 0\n  DISZ 75", text)));
-  CHECK(lens.surfaces[4].shape.rotation_rad == doctest::Approx(30.0 * 3.14159265358979323846 / 180.0));
+  CHECK(lens.surfaces[4].shape.rotation_rad == test::approx(30.0 * 3.14159265358979323846 / 180.0));
   CHECK(lens.surfaces[4].pose == SurfacePose{});
 }
 
@@ -352,9 +353,8 @@ TEST_CASE("configurations of Zemax are a zoom where thicknesses alone move") {
 TEST_CASE("glasses of Zemax") {
   const auto glass = [](const std::string& row) { return read(zmx("GLAS S-BSL7", "GLAS " + row)); };
   CHECK(glass("N-SK16 1 0 1.6207 60.28")->surfaces[4].glass_after == Glass{"N-SK16", ModelGlass{1.6207, 60.28, 0.0}});
-  CHECK(refractive_index(glass("517642")->surfaces[4].glass_after, kLineD_nm) == doctest::Approx(1.517));
-  CHECK(refractive_index(glass("F_SILICA")->surfaces[4].glass_after, kLineD_nm) ==
-        doctest::Approx(1.45846).epsilon(1e-5));
+  CHECK(refractive_index(glass("517642")->surfaces[4].glass_after, kLineD_nm) == test::approx(1.517));
+  CHECK(refractive_index(glass("F_SILICA")->surfaces[4].glass_after, kLineD_nm) == test::approx(1.45846).epsilon(1e-5));
   check_warns(*glass("NOSUCH 0 0 1.61 50"), "no catalogue has the glass NOSUCH (line 54)");
   check_warns(*glass("N-BK7 0 0 1.7 50"), "has n_d 1.51680 in the catalogue, 1.70000 in the file");
   CHECK(glass("N-BK7 0 0 1.5 40")->warnings.empty());
@@ -447,7 +447,7 @@ TEST_CASE("Zemax' samples: read, or refused for what they hold") {
     REQUIRE_MESSAGE(lens.has_value(), (lens ? "" : lens.error().to_string()));
     const auto state = configure_lens(*lens);
     REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().to_string()));
-    CHECK(state->focal_length_mm == doctest::Approx(outcome.focal_length_mm).epsilon(1e-3));
+    CHECK(state->focal_length_mm == test::approx(outcome.focal_length_mm).epsilon(1e-3));
     const std::string text = write_lens_toml(*lens);
     const auto again = read_lens_toml(text, "b.toml");
     REQUIRE_MESSAGE(again.has_value(), (again ? "" : again.error().to_string()));

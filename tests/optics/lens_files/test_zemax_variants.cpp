@@ -9,6 +9,7 @@
 #include "contrejour/lens.h"
 #include "optics/lens_files/read_lens.h"
 #include "optics/lens_files/reader_checks.h"
+#include "support/approx.h"
 
 namespace contrejour::test::zemax_variants {
 namespace {
@@ -74,9 +75,9 @@ TEST_CASE("a Zemax glass is offset from its catalogue's") {
   CHECK(lens.warnings.size() == must_read(kPair).warnings.size());
   const Glass& glass = lens.surfaces[3].glass_after;
   const GlassFigures before = glass_figures(plain), after = glass_figures(glass);
-  CHECK(after.n_d == doctest::Approx(before.n_d + 0.002).epsilon(1e-7));
-  CHECK(after.v_d == doctest::Approx(before.v_d - 0.5).epsilon(1e-4));
-  CHECK(after.p_gf == doctest::Approx(before.p_gf).epsilon(1e-4));
+  CHECK(after.n_d == test::approx(before.n_d + 0.002).epsilon(1e-7));
+  CHECK(after.v_d == test::approx(before.v_d - 0.5).epsilon(1e-4));
+  CHECK(after.p_gf == test::approx(before.p_gf).epsilon(1e-4));
   CHECK(glass.name == "N-SF2 offset");
   check_round_trip(lens);
   // An offset of zero: the glass itself.
@@ -111,8 +112,8 @@ TEST_CASE("a tilted plane of Zemax") {
   };
   const Prescription lens = must_read(tilted("  PARM 1 0.02\n  PARM 2 -0.01\n"));
   const Vec3 normal = lens.surfaces[1].pose.axis;
-  CHECK(-normal.x / normal.z == doctest::Approx(0.02).epsilon(1e-12));
-  CHECK(-normal.y / normal.z == doctest::Approx(-0.01).epsilon(1e-12));
+  CHECK(-normal.x / normal.z == test::approx(0.02).epsilon(1e-12));
+  CHECK(-normal.y / normal.z == test::approx(-0.01).epsilon(1e-12));
   // Only this surface is tilted: those behind it are unchanged.
   CHECK(lens.surfaces[3].pose == SurfacePose{});
   CHECK(must_read(tilted("")).surfaces[1].pose == SurfacePose{});
@@ -157,7 +158,7 @@ TEST_CASE("apertures of Zemax as old and odd as they come") {
   const std::string near = pair("  DISZ INFINITY", "  DISZ 300");
   const Prescription by_na = must_read(replaced(near, "ENPD 10", "OBNA 0.02 0"));
   const Prescription by_cone = must_read(replaced(near, "ENPD 10", "OBNA 1.1459919983 1"));
-  CHECK(by_cone.f_number == doctest::Approx(by_na.f_number).epsilon(1e-9));
+  CHECK(by_cone.f_number == test::approx(by_na.f_number).epsilon(1e-9));
   // A semi-diameter from a ray that failed is treated as missing.
   for (const char* infinite : {"1.#INF000000000E+000", "INFINITY", "-1.#INF"}) {
     const Prescription lens = must_read(pair("  DIAM 8 1\nSURF 2", std::string("  DIAM ") + infinite + " 0\nSURF 2"));
@@ -173,7 +174,7 @@ TEST_CASE("a stop that nothing tells the size of lets through what the other sur
   CHECK(lens.surfaces[2].kind == SurfaceKind::Stop);
   const auto state = configure_lens(lens);
   REQUIRE(state.has_value());
-  CHECK(lens.f_number == doctest::Approx(state->focal_length_mm / 16.0).epsilon(0.01));
+  CHECK(lens.f_number == test::approx(state->focal_length_mm / 16.0).epsilon(0.01));
   CHECK(lens.surfaces[2].semi_diameter_mm < 8.0);
   std::string bare = replaced(pair("ENPD 10", "FLOA"), "  DIAM 5\n", "");
   for (int k = 0; k < 4; ++k) bare = replaced(bare, "  DIAM 8 1\n", "");

@@ -9,6 +9,7 @@
 #include "contrejour/expert/clear_aperture.h"
 #include "optics/trace/clearance.h"
 #include "optics/trace/packet_trace.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -105,8 +106,8 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
           const TracedRay through = trace(path, ray), before = trace(plain, ray);
           CHECK(through.status == before.status);
           if (through.status != RayStatus::Ok) continue;
-          CHECK(through.sensor_mm.y == doctest::Approx(before.sensor_mm.y).epsilon(1e-12));
-          CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
+          CHECK(through.sensor_mm.y == test::approx(before.sensor_mm.y).epsilon(1e-12));
+          CHECK(through.transmission == test::approx(before.transmission).epsilon(1e-12));
           bool clear = before.relative_height <= 1.0;
           for (const Vec2 on_glass : crossings_of_front(plain, ray, pose))
             clear = clear && is_clear(aperture, semi_mm, on_glass);
@@ -117,14 +118,14 @@ TEST_CASE("rays pass a rim where they meet the glass within it, centred or not, 
           float sx = 0, sy = 0, transmission = 0, relative_height = 0, px = 0, py = 0;
           TracedArrays out{&sx, &sy, &transmission, &relative_height, {&px}, {&py}, nullptr, 0};
           trace_packets(packets, PacketPrecision::Double, &x, &y, 1, out);
-          CHECK(relative_height == doctest::Approx(through.relative_height).epsilon(1e-4));
-          CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
+          CHECK(relative_height == test::approx(through.relative_height).epsilon(1e-4));
+          CHECK(transmission == test::approx(through.transmission).epsilon(1e-3));
 
           std::vector<float> fields(7 * kClearancePadding), xs(kClearancePadding, x), ys(kClearancePadding, y);
           const auto field = [&](std::size_t n) { return fields.data() + n * kClearancePadding; };
           trace_clearance(packets, PacketPrecision::Double, xs.data(), ys.data(), 1,
                           {field(0), field(1), field(2), field(3), {field(4)}, {field(5)}});
-          CHECK(std::hypot(*field(2), *field(3)) == doctest::Approx(through.relative_height).epsilon(1e-3));
+          CHECK(std::hypot(*field(2), *field(3)) == test::approx(through.relative_height).epsilon(1e-3));
         }
         CHECK(open > 5);
         CHECK(blocked > 5);
@@ -158,8 +159,8 @@ TEST_CASE("an obscuration blocks where light meets the glass within it, each tim
           const TracedRay searched = trace(without_obscurations(path), ray);
           CHECK(through.status == before.status);
           if (through.status != RayStatus::Ok) continue;
-          CHECK(through.relative_height == doctest::Approx(before.relative_height).epsilon(1e-12));
-          CHECK(through.transmission == doctest::Approx(before.transmission).epsilon(1e-12));
+          CHECK(through.relative_height == test::approx(before.relative_height).epsilon(1e-12));
+          CHECK(through.transmission == test::approx(before.transmission).epsilon(1e-12));
           CHECK(searched.obscured < 0.0);
           CHECK(searched.relative_height == before.relative_height);  // the same steps
           bool meets = false;
@@ -175,13 +176,13 @@ TEST_CASE("an obscuration blocks where light meets the glass within it, each tim
           trace_packets(packets, PacketPrecision::Double, &x, &y, 1,
                         {&sx, &sy, &transmission, &relative_height, {&px}, {&py}, squared.data(), 1});
           const double p = 1.0 - through.obscured;
-          CHECK(relative_height == doctest::Approx(std::max(through.relative_height, 2.0 - p)).epsilon(1e-4));
-          CHECK(transmission == doctest::Approx(through.transmission).epsilon(1e-3));
+          CHECK(relative_height == test::approx(std::max(through.relative_height, 2.0 - p)).epsilon(1e-4));
+          CHECK(transmission == test::approx(through.transmission).epsilon(1e-3));
           double largest_excess = -1e30;
           for (std::size_t step = 0; step < path.steps.size(); ++step)
             if (path.steps[step].blocks_within)
               largest_excess = std::max(largest_excess, static_cast<double>(squared[step]));
-          if (p > 1e-3 && p < 2.0) CHECK(largest_excess == doctest::Approx(2.0 - p * p).epsilon(1e-3));
+          if (p > 1e-3 && p < 2.0) CHECK(largest_excess == test::approx(2.0 - p * p).epsilon(1e-3));
         }
         CHECK(obscured > 5);
         CHECK(free > 5);

@@ -13,6 +13,7 @@
 #include "contrejour/expert/trace.h"
 #include "optics/trace/packet_trace.h"
 #include "shared_data.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -168,7 +169,7 @@ TEST_CASE("rays end on the surface's formula and are refracted about its normal,
       const Vec3 kept = direction - 1.6 * after;  // along the normal, by Snell's law
       CHECK(length(kept - normal * dot(kept, normal)) < 1e-11);
       CHECK(std::abs(length(after) - 1.0) < 1e-12);
-      CHECK(record.steps[0].angle_of_incidence_rad == doctest::Approx(std::acos(dot(direction, normal))).epsilon(1e-7));
+      CHECK(record.steps[0].angle_of_incidence_rad == test::approx(std::acos(dot(direction, normal))).epsilon(1e-7));
     }
   }
 }
@@ -184,14 +185,13 @@ TEST_CASE("conics that focus a bundle to a point") {
     };
     OpticalPath mirror = direct_path(one_surface(-1.0 / radius, even_asphere(-1.0, {})), 550.0);
     mirror.steps[0].event = PathEvent::Reflect;
-    CHECK(crossing(trace_recorded(mirror, {{0, height, -100}, {0, 0, 1}})) ==
-          doctest::Approx(-radius / 2).epsilon(1e-12));
+    CHECK(crossing(trace_recorded(mirror, {{0, height, -100}, {0, 0, 1}})) == test::approx(-radius / 2).epsilon(1e-12));
     CHECK(crossing(meet(1.0 / radius, even_asphere(-1 / (n * n), {}), {{0, height, -100}, {0, 0, 1}})) ==
-          doctest::Approx(n * radius / (n - 1)).epsilon(1e-12));
+          test::approx(n * radius / (n - 1)).epsilon(1e-12));
     LensState plano = one_surface(-1.0 / radius, even_asphere(-n * n, {}));
     std::swap(plano.surfaces[0].before, plano.surfaces[0].after);
     CHECK(crossing(trace_recorded(direct_path(plano, 550.0), {{0, height, -100}, {0, 0, 1}})) ==
-          doctest::Approx(radius / (n - 1)).epsilon(1e-12));
+          test::approx(radius / (n - 1)).epsilon(1e-12));
   }
 }
 
@@ -223,7 +223,7 @@ TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their s
         s.shape = {.kind = ShapeKind::Toroid, .curvature_x_per_mm = s.curvature_per_mm, .rotation_rad = 0.3};
     }
     CHECK(same.has_axial_symmetry() == !as_toroid);
-    CHECK(first_order(same, 550.0).focal_length_x_mm == doctest::Approx(sphere.focal_length_mm).epsilon(1e-3));
+    CHECK(first_order(same, 550.0).focal_length_x_mm == test::approx(sphere.focal_length_mm).epsilon(1e-3));
     std::mt19937 random(8);
     std::uniform_real_distribution<> any(-1.0, 1.0);
     int unblocked = 0;
@@ -245,8 +245,8 @@ TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their s
           REQUIRE(b.status == a.status);
           const double scale = std::max(1.0, length(a.sensor_mm));
           CHECK(length(a.sensor_mm - b.sensor_mm) <= 1e-12 * 100.0 * scale);
-          CHECK(b.transmission == doctest::Approx(a.transmission).epsilon(1e-11));
-          CHECK(b.relative_height == doctest::Approx(a.relative_height).epsilon(1e-12));
+          CHECK(b.transmission == test::approx(a.transmission).epsilon(1e-11));
+          CHECK(b.relative_height == test::approx(a.relative_height).epsilon(1e-12));
           x.push_back(static_cast<float>(at.x));
           y.push_back(static_cast<float>(at.y));
           expected.push_back(a);
@@ -263,7 +263,7 @@ TEST_CASE("an asphere of no coefficients and a toroid of equal radii are their s
           for (std::size_t k = 0; k < x.size(); ++k) {
             CHECK(length(Vec2{sx[k], sy[k]} - expected[k].sensor_mm) <
                   tolerance * std::max(1.0, 0.1 * length(expected[k].sensor_mm)));
-            CHECK(t[k] == doctest::Approx(expected[k].transmission).epsilon(1e-3));
+            CHECK(t[k] == test::approx(expected[k].transmission).epsilon(1e-3));
           }
         }
       }
@@ -297,8 +297,8 @@ TEST_CASE("packets of rays meet every surface where single rays do, moved and ti
           const TracedRay single = trace(path, {{x[k], y[k], -5.0}, direction});
           REQUIRE(single.status == RayStatus::Ok);
           CHECK(length(Vec2{sx[k], sy[k]} - single.sensor_mm) < tolerance);
-          CHECK(r[k] == doctest::Approx(single.relative_height).epsilon(1e-4));
-          CHECK(t[k] == doctest::Approx(single.transmission).epsilon(1e-4));
+          CHECK(r[k] == test::approx(single.relative_height).epsilon(1e-4));
+          CHECK(t[k] == test::approx(single.transmission).epsilon(1e-4));
         }
       }
     }
@@ -326,8 +326,8 @@ TEST_CASE("both sections' focal lengths are those of rays close to the axis, and
   const auto exit = [&](Vec2 at) {
     return trace(direct_path(lens, kLineD_nm), {{at.x, at.y, 0.0}, {0, 0, 1}}).direction;
   };
-  CHECK(-h * exit({0, h}).z / exit({0, h}).y == doctest::Approx(f.focal_length_mm).epsilon(1e-8));
-  CHECK(-h * exit({h, 0}).z / exit({h, 0}).x == doctest::Approx(f.focal_length_x_mm).epsilon(1e-8));
+  CHECK(-h * exit({0, h}).z / exit({0, h}).y == test::approx(f.focal_length_mm).epsilon(1e-8));
+  CHECK(-h * exit({h, 0}).z / exit({h, 0}).x == test::approx(f.focal_length_x_mm).epsilon(1e-8));
   CHECK(std::abs(f.back_focal_distance_mm - f.back_focal_distance_x_mm) < 0.03);  // a common focus
   const auto file = shared_data("oracles/anamorphic_paraxial.json");
   if (!file) return;
@@ -342,12 +342,12 @@ TEST_CASE("both sections' focal lengths are those of rays close to the axis, and
 TEST_CASE("a polynomial's r^2 counts as curvature, and a cylinder at an angle as Euler has it") {
   LensState lens = one_surface(1.0 / 50, even_asphere(0.0, {0, 1e-3, 0, 1e-5}));
   const double power = 0.6 * (1.0 / 50 + 2e-3);
-  CHECK(abcd_between(lens.surfaces, 0, 0, 550.0).c == doctest::Approx(-power / 1.6).epsilon(1e-14));
+  CHECK(abcd_between(lens.surfaces, 0, 0, 550.0).c == test::approx(-power / 1.6).epsilon(1e-14));
   lens = one_surface(0.0, {.kind = ShapeKind::Toroid, .curvature_x_per_mm = 0.02, .rotation_rad = 0.5});
   CHECK(abcd_between(lens.surfaces, 0, 0, 550.0, Section::X).c ==
-        doctest::Approx(-0.6 / 1.6 * 0.02 * std::pow(std::cos(0.5), 2)).epsilon(1e-14));
+        test::approx(-0.6 / 1.6 * 0.02 * std::pow(std::cos(0.5), 2)).epsilon(1e-14));
   CHECK(abcd_between(lens.surfaces, 0, 0, 550.0, Section::Y).c ==
-        doctest::Approx(-0.6 / 1.6 * 0.02 * std::pow(std::sin(0.5), 2)).epsilon(1e-14));
+        test::approx(-0.6 / 1.6 * 0.02 * std::pow(std::sin(0.5), 2)).epsilon(1e-14));
 }
 
 TEST_CASE("an anamorphic lens's lights land where they are aimed, the squeeze between the two directions") {
@@ -362,7 +362,7 @@ TEST_CASE("an anamorphic lens's lights land where they are aimed, the squeeze be
   }
   const Vec2 a = chief_ray_image_point(lens, {normalized({0.02, 0.0, 1.0})}, 550.0);
   const Vec2 b = chief_ray_image_point(lens, {normalized({0.0, 0.02, 1.0})}, 550.0);
-  CHECK(b.y / a.x == doctest::Approx(60.555 / 31.488).epsilon(0.01));
+  CHECK(b.y / a.x == test::approx(60.555 / 31.488).epsilon(0.01));
   const Vec2 far_off = chief_ray_image_point(lens, {normalized({3.0, 2.0, 1.0})}, 550.0);  // beyond any chief ray
   CHECK(std::isfinite(far_off.x + far_off.y));
   CHECK(std::isfinite(direction_for_image_point(lens, {500.0, 300.0}, 550.0).z));

@@ -9,6 +9,7 @@
 #include "contrejour/expert/trace.h"
 #include "optics/trace/height_vector.h"
 #include "optics/trace/packet_trace.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -74,10 +75,10 @@ TEST_CASE("a ray at a tilted, decentred sphere or plane does what it does there 
       const Vec3 direction = rotation.back(expected.steps[0].direction_after);
       CHECK(length(found.steps[0].position_mm - position) < 1e-11);
       CHECK(length(found.steps[0].direction_after - direction) < 1e-13);
-      CHECK(found.ray.transmission == doctest::Approx(expected.ray.transmission).epsilon(1e-12));
-      CHECK(found.ray.relative_height == doctest::Approx(expected.ray.relative_height).epsilon(1e-11));
+      CHECK(found.ray.transmission == test::approx(expected.ray.transmission).epsilon(1e-12));
+      CHECK(found.ray.relative_height == test::approx(expected.ray.relative_height).epsilon(1e-11));
       CHECK(length(height_vector(askew, found.steps[0].position_mm)) / 10.0 ==
-            doctest::Approx(found.ray.relative_height).epsilon(1e-11));
+            test::approx(found.ray.relative_height).epsilon(1e-11));
     }
   }
 }
@@ -93,7 +94,7 @@ TEST_CASE("a path that is said to be tilted but is not gives what a centred one 
     REQUIRE(found.status == expected.status);
     if (found.status != RayStatus::Ok) continue;
     CHECK(length(found.sensor_mm - expected.sensor_mm) < 1e-8);
-    CHECK(found.transmission == doctest::Approx(expected.transmission).epsilon(1e-9));
+    CHECK(found.transmission == test::approx(expected.transmission).epsilon(1e-9));
   }
 }
 
@@ -126,12 +127,12 @@ TEST_CASE("packets of a lens with errors are the double tracer's rays") {
         const Vec3 from{x[k] - 4.0, y[k] - 3.0, 0.0};
         const TracedRay ray = trace(path, {from, light.direction_at(from)});
         if (ray.status != RayStatus::Ok || ray.relative_height > 1.5) continue;
-        CHECK(out[0][k] == doctest::Approx(ray.sensor_mm.x).epsilon(1e-5));
-        CHECK(out[1][k] == doctest::Approx(ray.sensor_mm.y).epsilon(1e-5));
-        CHECK(out[2][k] == doctest::Approx(ray.transmission * light.flux_at(from)).epsilon(2e-4));
-        CHECK(out[3][k] == doctest::Approx(ray.relative_height).epsilon(1e-5));
-        CHECK(out[4][k] == doctest::Approx(ray.stop[0].x).epsilon(1e-5));
-        CHECK(out[7][k] == doctest::Approx(ray.stop[0].y).epsilon(1e-5));
+        CHECK(out[0][k] == test::approx(ray.sensor_mm.x).epsilon(1e-5));
+        CHECK(out[1][k] == test::approx(ray.sensor_mm.y).epsilon(1e-5));
+        CHECK(out[2][k] == test::approx(ray.transmission * light.flux_at(from)).epsilon(2e-4));
+        CHECK(out[3][k] == test::approx(ray.relative_height).epsilon(1e-5));
+        CHECK(out[4][k] == test::approx(ray.stop[0].x).epsilon(1e-5));
+        CHECK(out[7][k] == test::approx(ray.stop[0].y).epsilon(1e-5));
       }
     }
   }
@@ -149,8 +150,8 @@ TEST_CASE("a ball moved to a side moves its ghost as its matrix says") {
   for (SurfaceState& s : lens.surfaces)
     if (s.kind == SurfaceKind::Refracting) s.pose.shift_mm = {offset_mm, -2.0 * offset_mm, 0.0};
   const TracedRay ray = trace(ghost_path(lens, {2, 3}, 550.0), {{0, 0, -5}, {0, 0, 1}});
-  CHECK(ray.sensor_mm.x == doctest::Approx(offset_mm * (1.0 - a)).epsilon(1e-4));
-  CHECK(ray.sensor_mm.y == doctest::Approx(-2.0 * offset_mm * (1.0 - a)).epsilon(1e-4));
+  CHECK(ray.sensor_mm.x == test::approx(offset_mm * (1.0 - a)).epsilon(1e-4));
+  CHECK(ray.sensor_mm.y == test::approx(-2.0 * offset_mm * (1.0 - a)).epsilon(1e-4));
   // Its rim moves with it.
   CHECK(glass_relative_height(lens, {offset_mm, -2.0 * offset_mm}) < 1e-9);
 }
@@ -184,8 +185,8 @@ TEST_CASE("build errors: bodies move as wholes, the stop stays, sizes are what w
     }
   }
   CHECK(bodies == 200 * 3);  // two cemented pairs and a single lens
-  CHECK(std::sqrt(tilts / bodies) == doctest::Approx(0.003).epsilon(0.08));
-  CHECK(std::sqrt(ways / bodies) == doctest::Approx(0.05).epsilon(0.08));
+  CHECK(std::sqrt(tilts / bodies) == test::approx(0.003).epsilon(0.08));
+  CHECK(std::sqrt(ways / bodies) == test::approx(0.05).epsilon(0.08));
   const auto heliar = find_lens("heliar");
   for (const BuildErrors& wrong : {BuildErrors{-0.1, 0, 0}, BuildErrors{0.3, 0, 0}, BuildErrors{0, std::nan(""), 0},
                                    BuildErrors{0, -1, 0}, BuildErrors{0, 1e9, 0}})

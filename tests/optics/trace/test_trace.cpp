@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/trace.h"
+#include "support/approx.h"
 #include "support/csv_lens.h"
 
 using namespace contrejour;
@@ -37,11 +38,11 @@ TEST_CASE("a plate's ghost is shifted by 2 t tan(theta') and has T R R T of its 
     const TracedRay ghost = trace(ghost_path(lens, {2, 3}, kLineD_nm), ray);
     REQUIRE(ghost.status == RayStatus::Ok);
     const double inside = std::asin(std::sin(angle) / n);
-    CHECK(ghost.sensor_mm.y - direct.sensor_mm.y == doctest::Approx(2 * t * std::tan(inside)).epsilon(1e-12));
-    CHECK(ghost.direction.y == doctest::Approx(std::sin(angle)).epsilon(1e-12));
+    CHECK(ghost.sensor_mm.y - direct.sensor_mm.y == test::approx(2 * t * std::tan(inside)).epsilon(1e-12));
+    CHECK(ghost.direction.y == test::approx(std::sin(angle)).epsilon(1e-12));
     const double r = reflectance({}, 1.0, n, std::cos(angle), kLineD_nm);
-    CHECK(ghost.transmission == doctest::Approx((1 - r) * r * r * (1 - r)).epsilon(1e-12));
-    CHECK(direct.transmission == doctest::Approx((1 - r) * (1 - r)).epsilon(1e-12));
+    CHECK(ghost.transmission == test::approx((1 - r) * r * r * (1 - r)).epsilon(1e-12));
+    CHECK(direct.transmission == test::approx((1 - r) * (1 - r)).epsilon(1e-12));
   }
 }
 
@@ -60,8 +61,8 @@ TEST_CASE("a ball lens's ghost ray is turned by 2 theta - 6 theta' in all (secon
     const double i = std::asin(height / radius);
     const double r = std::asin(height / (n * radius));
     const double deviation = 2 * (i - r) + 2 * (std::numbers::pi - 2 * r);
-    CHECK(ghost.direction.y == doctest::Approx(-std::sin(deviation)).epsilon(1e-12));
-    CHECK(ghost.direction.z == doctest::Approx(std::cos(deviation)).epsilon(1e-12));
+    CHECK(ghost.direction.y == test::approx(-std::sin(deviation)).epsilon(1e-12));
+    CHECK(ghost.direction.z == test::approx(std::cos(deviation)).epsilon(1e-12));
   }
 }
 
@@ -85,11 +86,11 @@ TEST_CASE("r_rel and stop coordinates tell what blocks a ray") {
   const OpticalPath path = direct_path(lens, kLineD_nm);
   const Iris circle;
   const TracedRay inside = trace(path, {{6.0, 0.0, 0.0}, {0, 0, 1}});
-  CHECK(inside.relative_height == doctest::Approx(0.3));
-  CHECK(inside.stop[0].x == doctest::Approx(0.6));
-  CHECK(blocked_by(inside, path, circle) == doctest::Approx(-0.4));
+  CHECK(inside.relative_height == test::approx(0.3));
+  CHECK(inside.stop[0].x == test::approx(0.6));
+  CHECK(blocked_by(inside, path, circle) == test::approx(-0.4));
   const TracedRay outside = trace(path, {{15.0, 0.0, 0.0}, {0, 0, 1}});
-  CHECK(blocked_by(outside, path, circle) == doctest::Approx(0.5));
+  CHECK(blocked_by(outside, path, circle) == test::approx(0.5));
   const Iris hexagon{6, 0.0};
   CHECK(blocked_by(trace(path, {{0.0, 9.0, 0.0}, {0, 0, 1}}), path, hexagon) > 0.0);
   CHECK(blocked_by(trace(path, {{9.0, 0.0, 0.0}, {0, 0, 1}}), path, hexagon) < 0.0);
@@ -129,7 +130,7 @@ TEST_CASE("the entrance window holds every ray of a point that can pass inside s
       const LightSource light(normalized(point * -1.0), length(point));
       REQUIRE(check_source(lens, light).has_value());
       const EntranceWindow window = entrance_window(lens, light);
-      CHECK(window.z_mm == doctest::Approx(rim_z));
+      CHECK(window.z_mm == test::approx(rim_z));
       int outside = 0;
       for (int k = 0; k < 2000; ++k) {
         const double r = 11.0 * std::sqrt((k + 0.5) / 2000.0);
@@ -154,10 +155,10 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
   const LensState lens = test::configured(singlet, 2.0);
   for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{60, 5}, Vec2{300, -200}}) {
     const Vec3 d = direction_for_image_point(lens, p, kLineD_nm);
-    CHECK(length(d) == doctest::Approx(1.0));
+    CHECK(length(d) == test::approx(1.0));
     const Vec2 back = chief_ray_image_point(lens, d, kLineD_nm);
-    CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
-    CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
+    CHECK(back.x == test::approx(p.x).epsilon(1e-8));
+    CHECK(back.y == test::approx(p.y).epsilon(1e-8));
   }
   // Near lights as well; close to the axis their image points follow from similar triangles through the stop, apart
   // from the singlet's power.
@@ -165,15 +166,15 @@ TEST_CASE("a light is found again where its chief ray lands, inside and outside 
     CAPTURE(distance_mm);
     for (const Vec2 p : {Vec2{0, 0}, Vec2{3, -2}, Vec2{-15, 10}, Vec2{300, -200}}) {
       const Vec3 d = direction_for_image_point(lens, p, kLineD_nm, distance_mm);
-      CHECK(length(d) == doctest::Approx(1.0));
+      CHECK(length(d) == test::approx(1.0));
       const Vec2 back = chief_ray_image_point(lens, {d, distance_mm}, kLineD_nm);
-      CHECK(back.x == doctest::Approx(p.x).epsilon(1e-8));
-      CHECK(back.y == doctest::Approx(p.y).epsilon(1e-8));
+      CHECK(back.x == test::approx(p.x).epsilon(1e-8));
+      CHECK(back.y == test::approx(p.y).epsilon(1e-8));
     }
     // The stop is in front: a chief ray goes through its middle, which is the first vertex, whatever the distance.
     const Vec3 slanting{0.0, std::sin(0.1), std::cos(0.1)};
     CHECK(chief_ray_image_point(lens, {slanting, distance_mm}, kLineD_nm).y ==
-          doctest::Approx(chief_ray_image_point(lens, slanting, kLineD_nm).y).epsilon(1e-8));
+          test::approx(chief_ray_image_point(lens, slanting, kLineD_nm).y).epsilon(1e-8));
   }
   // An inverted image: the light of a source above the axis travels downwards and meets the sensor below.
   const Vec3 from_above{0.0, -std::sin(0.1), std::cos(0.1)};

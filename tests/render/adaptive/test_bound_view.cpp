@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "render/adaptive/clip/bound_view.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -65,14 +66,14 @@ TEST_CASE("what a polygon has between two lines is as deep within a bound as ask
 TEST_CASE("lines lie close to a bound that a polygon sees little of, and nowhere in one that it holds all of") {
   const IrisBound unit = circle({}, 1.0);
   const Strip narrow = BoundView(unit, rectangle({0.9, 0.0}, {0.2, 0.0}, {0.0, 0.1})).deeper_than(0.05);
-  CHECK(narrow.distance == doctest::Approx(std::sqrt(0.95 * 0.95 - 0.01)));
-  CHECK(narrow.near_distance == doctest::Approx(-narrow.distance));
+  CHECK(narrow.distance == test::approx(std::sqrt(0.95 * 0.95 - 0.01)));
+  CHECK(narrow.near_distance == test::approx(-narrow.distance));
   CHECK(BoundView(unit, rectangle({0.1, 0.0}, {1.3, 0.0}, {0.0, 1.2})).deeper_than(0.1).is_empty());
   CHECK(BoundView(unit, rectangle({}, {0.2, 0.0}, {0.0, 0.2})).deeper_than(2.0).is_empty());
   IrisBound straight;
   straight.normal = {0.0, 1.0};
   straight.apothem = 0.5;
   const Strip half_plane = BoundView(straight, rectangle({}, {2.0, 0.0}, {0.0, 2.0})).deeper_than(0.1);
-  CHECK(half_plane.distance == doctest::Approx(0.4));
+  CHECK(half_plane.distance == test::approx(0.4));
   CHECK(std::isinf(half_plane.near_distance));
 }

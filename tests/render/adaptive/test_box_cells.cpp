@@ -11,6 +11,7 @@
 #include "render/adaptive/emit/shared_edges.h"
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -139,8 +140,8 @@ TEST_CASE("a plane has the light of what it is drawn for, and tells how far it i
         const auto plane = LightSums(mesh, square, ~0U).plane(mesh, square);
         REQUIRE(plane.has_value());
         const double fraction = size * size / 64.0;
-        CHECK(plane->irradiance.value[1] * plane->area_px == doctest::Approx(ghost.flux * fraction).epsilon(1e-4));
-        CHECK(plane->irradiance.value[0] == doctest::Approx(2.0 * plane->irradiance.value[1]));
+        CHECK(plane->irradiance.value[1] * plane->area_px == test::approx(ghost.flux * fraction).epsilon(1e-4));
+        CHECK(plane->irradiance.value[0] == test::approx(2.0 * plane->irradiance.value[1]));
         // Compares with the irradiance at each vertex, at pixels.
         double worst = 0.0;
         for (int y = 0; y <= size; ++y) {

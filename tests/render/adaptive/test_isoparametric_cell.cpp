@@ -5,6 +5,7 @@
 #include <random>
 
 #include "render/adaptive/clip/isoparametric_cell.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -58,7 +59,7 @@ TEST_CASE("a cell says between its corners what they were made from") {
       CHECK(at.uv == uv);
       CHECK(length(at.position - position_at(uv, sag_of(corners))) < 1e-9);
       CHECK(length(Vec2{at.limit[0], at.limit[1]} - stop_at(uv, sag_of(corners))) < 1e-6);
-      CHECK(at.limit[2] == doctest::Approx(0.5).epsilon(1e-6));
+      CHECK(at.limit[2] == test::approx(0.5).epsilon(1e-6));
     }
   }
 }

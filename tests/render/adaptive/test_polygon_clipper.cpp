@@ -6,6 +6,7 @@
 #include <random>
 
 #include "render/adaptive/clip/polygon_clipper.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -49,7 +50,7 @@ TEST_CASE("a round iris inside a cell leaves its area") {
   for (const double step : {0.8, 0.2, 0.05}) {
     const auto cell = cell_with<4>({Vec2{-2, -2}, Vec2{2, -2}, Vec2{2, 2}, Vec2{-2, 2}});
     const double whole = std::numbers::pi * r * r * kSide_px * kSide_px;
-    CHECK(area_of(clipper.open_part(cell, cell, 1, 0, step)) == doctest::Approx(whole).epsilon(1e-6));
+    CHECK(area_of(clipper.open_part(cell, cell, 1, 0, step)) == test::approx(whole).epsilon(1e-6));
   }
 }
 
@@ -61,7 +62,7 @@ TEST_CASE("a short arc through a cell leaves the area below it, however long its
     const auto cell = cell_with<4>({Vec2{-half, 0.7}, Vec2{half, 0.7}, Vec2{half, 1.4}, Vec2{-half, 1.4}});
     const double in_stop = half * std::sqrt(1.0 - half * half) + std::asin(half) - 1.4 * half;
     const double whole = in_stop / (1.4 * half) * kSide_px * kSide_px;
-    CHECK(area_of(clipper.open_part(cell, cell, 1, 0, 0.8)) == doctest::Approx(whole).epsilon(1e-3));
+    CHECK(area_of(clipper.open_part(cell, cell, 1, 0, 0.8)) == test::approx(whole).epsilon(1e-3));
   }
 }
 
@@ -73,7 +74,7 @@ TEST_CASE("what two crossings of a round iris both leave, be it ever so narrow")
     for (Corner& c : cell) c.limit[2] = c.limit[0] + static_cast<float>(apart), c.limit[3] = c.limit[1];
     const double in_stop = 2.0 * std::acos(0.5 * apart) - 0.5 * apart * std::sqrt(4.0 - apart * apart);
     const double whole = in_stop / 16.0 * kSide_px * kSide_px;
-    CHECK(area_of(clipper.open_part(cell, cell, 2, 0, 0.8)) == doctest::Approx(whole).epsilon(0.01));
+    CHECK(area_of(clipper.open_part(cell, cell, 2, 0, 0.8)) == test::approx(whole).epsilon(0.01));
   }
 }
 
@@ -88,7 +89,7 @@ TEST_CASE("a rim that bends within a cell of curved sides cuts along its curve")
                                       height({1, 1}), height({0.5, 1}), height({0, 1}), height({0, 0.5})});
     const auto straight = cell_with<4>({height({0, 0}), height({1, 0}), height({1, 1}), height({0, 1})});
     const double whole = std::numbers::pi / 4.0 * r * r * kSide_px * kSide_px;
-    CHECK(area_of(clipper.open_part(curved, curved, 0, 1, 0.1)) / whole == doctest::Approx(1.0).epsilon(0.06));
+    CHECK(area_of(clipper.open_part(curved, curved, 0, 1, 0.1)) / whole == test::approx(1.0).epsilon(0.06));
     CHECK(std::abs(area_of(clipper.open_part(straight, straight, 0, 1, 0.1)) / whole - 1.0) > 0.1);
   }
 }
@@ -102,11 +103,11 @@ TEST_CASE("arcs and straight edges lie where curved stop coordinates put them") 
   const IrisShape round{Iris{}};
   PolygonClipper by_circle(round);
   const double disc = std::numbers::pi / 16.0 * kSide_px * kSide_px;  // the map preserves areas up to the scale
-  CHECK(area_of(by_circle.open_part(cell, cell, 1, 0, 0.05)) == doctest::Approx(disc).epsilon(1e-3));
+  CHECK(area_of(by_circle.open_part(cell, cell, 1, 0, 0.05)) == test::approx(disc).epsilon(1e-3));
   const IrisShape square{Iris{.blades = 4}};
   PolygonClipper by_lines(square);
   CHECK(area_of(by_lines.open_part(cell, cell, 1, 0, 0.05)) ==
-        doctest::Approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
+        test::approx(disc * 2.0 / std::numbers::pi).epsilon(0.012));
 }
 
 // A ghost of the Nikon had become a polygon of 1e10 pixels where the map to the stop folds within a cell.

@@ -16,6 +16,7 @@
 #include "contrejour/expert/metrics.h"
 #include "contrejour/image_io.h"
 #include "render/adaptive/scene.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/kept_picture.h"
 
@@ -162,7 +163,7 @@ TEST_CASE("the Canon at 200 mm wide open, its brightest ghosts, as by the bundle
   const Image truth = image_of("bundle", lens, light, settings);
   const Image image = image_of("adaptive", lens, light, settings);
   CHECK(psnr_db(truth, image) >= 50.0);
-  CHECK(test::sum(image) / test::sum(truth) == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(test::sum(image) / test::sum(truth) == test::approx(1.0).epsilon(0.005));
 }
 
 TEST_CASE("sixteen wavelengths as by the bundle, the same bits for 1, 2 and 7 threads") {
@@ -193,7 +194,7 @@ TEST_CASE("every pair of surfaces, an iris of blades, lights on the axis and off
       const Image truth = image_of("bundle", lens, light, settings);
       const Image image = image_of("adaptive", lens, light, settings);
       CHECK(psnr_db(truth, image) >= 50.0);
-      CHECK(test::sum(image) / test::sum(truth) == doctest::Approx(1.0).epsilon(0.005));
+      CHECK(test::sum(image) / test::sum(truth) == test::approx(1.0).epsilon(0.005));
     }
   }
 }
@@ -298,7 +299,7 @@ TEST_CASE("a ghost alone, of which the preview shows nothing") {
     const double ours = test::sum(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
     const double truth = test::sum(test::flare_of("reference", lens, {&light, 1}, settings).image);
     CHECK(truth > 0.0);
-    CHECK(ours == doctest::Approx(truth).epsilon(0.01));
+    CHECK(ours == test::approx(truth).epsilon(0.01));
   }
 }
 
@@ -320,7 +321,7 @@ TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is [sl
         settings.set_error(error);
         const auto ours = channel_sums(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
         for (const std::size_t c : {0U, 2U})  // little green light, less than the colours of red and blue leave
-          CHECK(ours[c] / truth[c] == doctest::Approx(1.0).epsilon(ringing == RingingMode::None ? 0.003 : 0.025));
+          CHECK(ours[c] / truth[c] == test::approx(1.0).epsilon(ringing == RingingMode::None ? 0.003 : 0.025));
       }
     }
   }
@@ -369,7 +370,7 @@ TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
   for (const auto& [ghost, part] : {std::pair{Ghost{8, 12}, 0.01}, {Ghost{10, 12}, 0.025}}) {
     settings.selection = SelectList{{ghost}};
     const double truth = test::sum(image_of("bundle", lens, light, settings));
-    CHECK(test::sum(image_of("adaptive", lens, light, settings)) / truth == doctest::Approx(1.0).epsilon(part));
+    CHECK(test::sum(image_of("adaptive", lens, light, settings)) / truth == test::approx(1.0).epsilon(part));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "render/adaptive/cells/stop_map.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -72,14 +73,14 @@ TEST_CASE("forms are points, widths are areas, thin cells go on tamely") {
     const Vec2 q = pixel - last.origin_px;
     const double value =
         form.level + form.x * q.x + form.y * q.y + form.xx * q.x * q.x + form.xy * q.x * q.y + form.yy * q.y * q.y;
-    CHECK(value == doctest::Approx(dot(weights, map.stop_point(pixel)) + 0.25).epsilon(1e-5));
+    CHECK(value == test::approx(dot(weights, map.stop_point(pixel)) + 0.25).epsilon(1e-5));
   }
-  CHECK(last.width == doctest::Approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
+  CHECK(last.width == test::approx(std::sqrt((0.1 * 0.2 + 0.01 * 0.02) / (20.0 * 15.0 + 5.0 * 4.0))).epsilon(1e-9));
 
   // A cell a hundredth of a pixel thick: one pixel outside it, the place is no farther than the cell's own points are
   // apart.
   const CellSeries thin{{10, 10}, {8, 0}, {0, 0.005}, {}, {}, {}};
   const StopMap tame(thin, std::array{CellSeries{{0, 0}, {0.2, 0}, {0, 0.3}, {}, {}, {}}}, 0.2);
   CHECK(std::abs(tame.stop_point({10, 11}).y) < 0.3);
-  CHECK(tame.stop_point({14, 10}).x == doctest::Approx(0.1).epsilon(0.01));
+  CHECK(tame.stop_point({14, 10}).x == test::approx(0.1).epsilon(0.01));
 }

@@ -13,6 +13,7 @@
 #include "render/adaptive/scene.h"
 #include "render/adaptive/tessellator.h"
 #include "render/stop_patterns/stop_pattern.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -48,11 +49,11 @@ double flux_of(const PolygonList& list, std::size_t channel) {
 
 void check_flux(const AffineGhost& ghost, const Iris& iris, double fraction, double epsilon) {
   const PolygonList list = tessellated(ghost, iris);
-  CHECK(flux_of(list, 1) == doctest::Approx(ghost.flux * fraction).epsilon(epsilon));
-  CHECK(flux_of(list, 0) == doctest::Approx(2.0 * ghost.flux * fraction).epsilon(epsilon));
+  CHECK(flux_of(list, 1) == test::approx(ghost.flux * fraction).epsilon(epsilon));
+  CHECK(flux_of(list, 0) == test::approx(2.0 * ghost.flux * fraction).epsilon(epsilon));
   CHECK(flux_of(list, 2) == 0.0);
   const Image image = test::drawn(list, kWidth, kHeight);
-  CHECK(test::sum_of_channel(image, 1) == doctest::Approx(ghost.flux * fraction).epsilon(epsilon));
+  CHECK(test::sum_of_channel(image, 1) == test::approx(ghost.flux * fraction).epsilon(epsilon));
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ TEST_CASE("nothing blocks: the box itself, level") {
   const double level = ghost.flux / (4.0 * ghost.pixels.determinant());
   for (const Vec2 uv : {Vec2{0, 0}, Vec2{-0.9, 0.8}, Vec2{0.9, 0.9}}) {
     const Vec2 p = ghost.pixels(uv);
-    CHECK(image.at(static_cast<int>(p.x), static_cast<int>(p.y), 1) / level == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(image.at(static_cast<int>(p.x), static_cast<int>(p.y), 1) / level == test::approx(1.0).epsilon(1e-4));
   }
 }
 
@@ -76,7 +77,7 @@ TEST_CASE("without a limit to its error, too, a ghost within a rim that passes i
   ghost.rims = {{{1.2, 0.1}, {-0.2, 1.3}, {0.1, 0.0}}};
   const double open = ghost.flux * ghost.open_fraction({});
   CHECK(flux_of(tessellated(ghost, {}, std::numeric_limits<double>::infinity()), 1) / open ==
-        doctest::Approx(1.0).epsilon(0.05));
+        test::approx(1.0).epsilon(0.05));
 }
 
 TEST_CASE("one weight for all channels draws what one a channel draws") {
@@ -91,8 +92,8 @@ TEST_CASE("one weight for all channels draws what one a channel draws") {
     const LinearIrradiance &a = one.irradiance_of(one.polygons[k]), &b = three.irradiance_of(three.polygons[k]);
     CHECK(one.corners_of(one.polygons[k]).size() == three.corners_of(three.polygons[k]).size());
     for (std::size_t c = 0; c < 3; ++c) {
-      CHECK(a.value[c] == doctest::Approx(b.value[c]).epsilon(1e-6));
-      CHECK(a.along_x[c] == doctest::Approx(b.along_x[c]).epsilon(1e-4).scale(1e-6 * a.value[0]));
+      CHECK(a.value[c] == test::approx(b.value[c]).epsilon(1e-6));
+      CHECK(a.along_x[c] == test::approx(b.along_x[c]).epsilon(1e-4).scale(1e-6 * a.value[0]));
     }
   }
 }
@@ -178,7 +179,7 @@ TEST_CASE("a ghost across the frame's edge: the part on the frame") {
   ghost.stops = {{{1.1, 0.0}, {0.0, 1.1}, {}}};
   const double fraction = kPi / (4.0 * 1.21);
   CHECK(test::sum_of_channel(test::drawn(tessellated(ghost, {}), kWidth, kHeight), 1) ==
-        doctest::Approx(0.5 * ghost.flux * fraction).epsilon(1e-3));
+        test::approx(0.5 * ghost.flux * fraction).epsilon(1e-3));
 }
 
 TEST_CASE("an opening so small that no vertex of the mesh is in it") {
@@ -233,7 +234,7 @@ double light_off(const AffineGhost& ghost, const Iris& iris) {
   const double brightest = *std::max_element(image.pixels.begin(), image.pixels.end());
   for (const float v : image.pixels) sound = sound && std::isfinite(v) && v >= -1e-5 * brightest;
   CHECK(sound);
-  CHECK(test::sum_of_channel(image, 1) / flux_of(list, 1) == doctest::Approx(1.0).epsilon(1e-4));
+  CHECK(test::sum_of_channel(image, 1) / flux_of(list, 1) == test::approx(1.0).epsilon(1e-4));
   return std::abs(flux_of(list, 1) / (ghost.flux * ghost.open_fraction(iris, 400)) - 1.0);
 }
 
@@ -309,5 +310,5 @@ TEST_CASE("light behind a stop pattern that is too dim for its fringes to matter
   REQUIRE_FALSE(means.polygons.empty());
   const double flux = test::sum_of_channel(test::drawn(looked_up, kWidth, kHeight, &atlas), 1);
   CHECK(flux < 0.5 * ghost.flux);
-  CHECK(flux_of(means, 1) == doctest::Approx(flux).epsilon(0.03));
+  CHECK(flux_of(means, 1) == test::approx(flux).epsilon(0.03));
 }

@@ -7,6 +7,7 @@
 #include "render/adaptive/emit/shared_edges.h"
 #include "render/adaptive/plain_image.h"
 #include "render/adaptive/scene.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -168,7 +169,7 @@ TEST_CASE("tiles right of a caustic of ten million times the level around it do 
   list.add({{Point{297.3F, 0.1F}, Point{304.1F, 0.4F}, Point{301.7F, 2.9F}}}, bright);
   const Image image = test::drawn(list, width, height);
   for (int x = 310; x < width - 1; ++x)
-    for (int c = 0; c < 3; ++c) CHECK(image.at(x, 1, c) == doctest::Approx(1.0).epsilon(1e-6));
+    for (int c = 0; c < 3; ++c) CHECK(image.at(x, 1, c) == test::approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, and no light is lost") {
@@ -195,11 +196,11 @@ TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels, an
   }
   const Image inside = test::drawn(list, 290, 38);
   for (int y = 1; y < 38; ++y) {
-    for (int x = 1; x < 290; ++x) CHECK(inside.at(x, y) == doctest::Approx(1.0).epsilon(2e-6));
+    for (int x = 1; x < 290; ++x) CHECK(inside.at(x, y) == test::approx(1.0).epsilon(2e-6));
   }
   // Moved so that all of it lies on the frame.
   for (Point& p : list.corners) p = {p.x + 10.0F, p.y + 4.0F};
-  CHECK(test::sum_of_channel(test::drawn(list, 330, 60), 2) == doctest::Approx(area).epsilon(1e-5));
+  CHECK(test::sum_of_channel(test::drawn(list, 330, 60), 2) == test::approx(area).epsilon(1e-5));
 }
 
 TEST_CASE("edges that neighbours share are drawn once, and nothing else changes") {

@@ -10,6 +10,7 @@
 #include "render/adaptive/budget/frame_error.h"
 #include "render/adaptive/budget/tolerance.h"
 #include "render/ray_maps/lobatto.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -54,14 +55,14 @@ TEST_CASE("an even ghost may be displaced by its squared error over twice the li
   // 2 x 2 mm of the pupil over 400 x 400 pixels.
   const Tolerance t = of(rays_of([](Vec2 p) { return p * 2.0; }));
   const double level = 4e-6 / (400.0 * 400.0);
-  CHECK(t.level / level == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(t.level / level == test::approx(1.0).epsilon(1e-6));
   const double error = 0.3 * 1e-4 / level;
-  CHECK(t.weight == doctest::Approx(std::min(0.5, error / 400.0)));
-  CHECK(t.position_px == doctest::Approx(0.05 * 400.0 + 0.5));  // not larger, whatever is allowed
+  CHECK(t.weight == test::approx(std::min(0.5, error / 400.0)));
+  CHECK(t.position_px == test::approx(0.05 * 400.0 + 0.5));  // not larger, whatever is allowed
   const Tolerance strict = within(rays_of([](Vec2 p) { return p * 2.0; }), {1e-19, 1.0});
   const double little = 0.3 * std::sqrt(1e-19) / level;
-  CHECK(strict.position_px == doctest::Approx(little / (2.0 * 20.0)));
-  CHECK(strict.weight == doctest::Approx(little / 400.0));
+  CHECK(strict.position_px == test::approx(little / (2.0 * 20.0)));
+  CHECK(strict.weight == test::approx(little / 400.0));
 }
 
 TEST_CASE("rays that are flung far away beyond a rim loosen nothing") {
@@ -72,20 +73,20 @@ TEST_CASE("rays that are flung far away beyond a rim loosen nothing") {
     flung.relative_height[k] = 1.5F;
     if (k % kNodes == 4) flung.sensor_x_mm[k] *= 1000.0F;
   }
-  CHECK(of(flung).level / of(rays_of(even)).level == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(of(flung).level / of(rays_of(even)).level == test::approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("a ghost most of whose light gathers is held to the level there") {
   const double level = of(rays_of([](Vec2 p) { return p * 2.0; })).level;
   // The left half of the pupil on a tenth of its width.
   const Tolerance gathered = of(rays_of([](Vec2 p) { return Vec2{p.x < 0.0 ? 0.2 * p.x : 2.0 * p.x, 2.0 * p.y}; }));
-  CHECK(gathered.level / level == doctest::Approx(0.5 * (1.0 + 10.0)).epsilon(1e-5));
+  CHECK(gathered.level / level == test::approx(0.5 * (1.0 + 10.0)).epsilon(1e-5));
 }
 
 TEST_CASE("where no ray tells where a ghost lies, a small frame does") {
   LobattoRays failed = rays_of([](Vec2 p) { return p * 2.0; });
   std::fill(failed.relative_height.begin(), failed.relative_height.end(), std::numeric_limits<float>::infinity());
-  CHECK(of(failed).level / 4e-6 == doctest::Approx(1.0));  // all of it in one pixel
+  CHECK(of(failed).level / 4e-6 == test::approx(1.0));  // all of it in one pixel
   const auto about = [&](double level, double area_px) {
     return tolerance_for(failed, 1.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0, {level, area_px}});
   };
@@ -99,15 +100,15 @@ TEST_CASE("colours visible next to the peak stay within a fiftieth of a ghost's 
         .colour_px;
   };
   const double level = 4e-6 / (400.0 * 400.0);  // of a ghost of 400 x 400 pixels
-  CHECK(colour_px(2.0, level * 3000.0) == doctest::Approx(8.0));
+  CHECK(colour_px(2.0, level * 3000.0) == test::approx(8.0));
   CHECK(colour_px(2.0, level * 3700.0) > 1e6);
-  CHECK(colour_px(0.02, level) == doctest::Approx(1.0));
+  CHECK(colour_px(0.02, level) == test::approx(1.0));
 }
 
 TEST_CASE("without a limit light may be off by a fiftieth of a ghost's size; without light anything will do") {
   const LobattoRays ray_set = rays_of([](Vec2 p) { return p; });
   const Tolerance preview_shift = within(ray_set, {HUGE_VAL, 1.0});
-  CHECK(preview_shift.position_px == doctest::Approx(0.02 * 200.0 + 0.5));
+  CHECK(preview_shift.position_px == test::approx(0.02 * 200.0 + 0.5));
   CHECK(std::min(preview_shift.stop, preview_shift.weight) > 1e6);
   CHECK(tolerance_for(ray_set, 0.0, 1.0, frame_of_small_pixels(), {1e-8, 1.0}).position_px > 1e6);
 }
@@ -120,6 +121,6 @@ TEST_CASE("light that is known to focus between rays has the tolerance that rays
   const Tolerance gathered = t({8.0 * level, 900.0});
   const double error = 0.3 * std::sqrt(1e-19) / (8.0 * level);
   CHECK(gathered.level == 8.0 * level);
-  CHECK(gathered.position_px == doctest::Approx(error / (2.0 * std::sqrt(30.0))));
-  CHECK(gathered.weight == doctest::Approx(error / 30.0));
+  CHECK(gathered.position_px == test::approx(error / (2.0 * std::sqrt(30.0))));
+  CHECK(gathered.weight == test::approx(error / 30.0));
 }

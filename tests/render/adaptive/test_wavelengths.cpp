@@ -16,6 +16,7 @@
 #include "render/adaptive/scene.h"
 #include "render/ray_maps/band_set.h"
 #include "render/ray_maps/first_rays.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/kept_picture.h"
 
@@ -93,7 +94,7 @@ TEST_CASE("polynomials in 1 / lambda^2 are predicted exactly, others are not") {
     return 3.0 - s + 2.0 * s * s - 0.5 * s * s * s + 0.1 * s * s * s * s;
   };
   for (std::size_t k = 0; k < lambda_nm.size(); ++k)
-    CHECK(predicted(quartic, k) == doctest::Approx(quartic(lambda_nm[k])).epsilon(1e-12));
+    CHECK(predicted(quartic, k) == test::approx(quartic(lambda_nm[k])).epsilon(1e-12));
   const auto narrow = [](double lambda) { return std::exp(-0.5 * std::pow((lambda - 550.0) / 20.0, 2.0)); };
   double worst = 0.0;
   for (std::size_t k = 0; k < lambda_nm.size(); ++k)
@@ -107,7 +108,7 @@ TEST_CASE("where coatings are uneven over the wavelengths, straight lines interp
   double least = 0.0;
   for (std::size_t pass = 0; pass < lambda_nm.size(); ++pass) {
     const std::vector<double> weights = light_factors(samples, 4, pass, true);
-    CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == doctest::Approx(1.0));
+    CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == test::approx(1.0));
     CHECK(std::ranges::count_if(weights, [](double weight) { return weight != 0.0; }) <= 2);
     for (const double weight : weights) CHECK(weight >= 0.0);
     least = std::min(least, std::ranges::min(light_factors(samples, 4, pass, false)));
@@ -145,7 +146,7 @@ TEST_CASE("few wavelengths tell the transmissions of sixteen") {
           predicted += rays.transmission[k][node];
           traced_light += ray_set.transmission[node];
         }
-        CHECK(predicted == doctest::Approx(traced_light).epsilon(0.008));
+        CHECK(predicted == test::approx(traced_light).epsilon(0.008));
       }
     }
   }
@@ -180,9 +181,9 @@ TEST_CASE("bands predicted from samples have the patches of rays traced at their
       CHECK(std::abs(patch.field(PatchLayout::kX)[node] + off.x - traced.field(PatchLayout::kX)[node]) < 5e-3);
       CHECK(std::abs(patch.field(PatchLayout::kY)[node] + off.y - traced.field(PatchLayout::kY)[node]) < 5e-3);
       CHECK(patch.field(PatchLayout::kStop)[node] ==
-            doctest::Approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
+            test::approx(traced.field(PatchLayout::kStop)[node]).epsilon(1e-5).scale(1.0));
       CHECK(patch.field(patch.layout.weight(0))[node] ==
-            doctest::Approx(traced.field(traced.layout.weight(0))[node]).epsilon(1.5e-2));
+            test::approx(traced.field(traced.layout.weight(0))[node]).epsilon(1.5e-2));
     }
   }
 }
@@ -209,7 +210,7 @@ TEST_CASE("a band of several wavelengths carries the light of all, in each chann
   for (std::size_t node = 0; node < patch.size(); ++node)
     for (int c = 0; c < 3; ++c)
       CHECK(patch.gain[static_cast<std::size_t>(c)] * patch.field(patch.layout.weight_of(c))[node] ==
-            doctest::Approx(sum[node][static_cast<std::size_t>(c)]).epsilon(8e-3).scale(0.01 * sum[node][1]));
+            test::approx(sum[node][static_cast<std::size_t>(c)]).epsilon(8e-3).scale(0.01 * sum[node][1]));
 }
 
 TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too") {
@@ -228,7 +229,7 @@ TEST_CASE("a band drawn by itself carries the light of all its wavelengths, too"
         sum[node] += rainbow.tracers.passes()[pass].gain[c] * light[node];
     }
     for (std::size_t node = 0; node < sum.size(); ++node)
-      CHECK(ray_sets.front().weight[c][node] == doctest::Approx(sum[node]).epsilon(1e-5));
+      CHECK(ray_sets.front().weight[c][node] == test::approx(sum[node]).epsilon(1e-5));
   }
 }
 
@@ -268,7 +269,7 @@ TEST_CASE("edges drawn at one position are as wrong as counted pixel by pixel") 
   const std::vector<SpectralEdge> coloured{{-0.9, {0.0, 0.1, 0.8}}, {0.1, {0.1, 0.9, 0.2}}, {1.4, {0.7, 0.2, 0.0}}};
   for (const auto& edges : {far, near, coloured}) {
     for (const double drawn_px : {0.0, 0.4, middle_of_light(edges)})
-      CHECK(band_error(edges, drawn_px) == doctest::Approx(counted_error(edges, drawn_px)).epsilon(2e-3));
+      CHECK(band_error(edges, drawn_px) == test::approx(counted_error(edges, drawn_px)).epsilon(2e-3));
   }
   // Displacements of less than a pixel cancel about the middle of the light.
   CHECK(band_error(near, middle_of_light(near)) < 0.1 * band_error(near, near.front().position_px));
@@ -285,7 +286,7 @@ TEST_CASE("predicted bands are drawn at the middle of their light, traced ones a
   bool several = false;
   for (const Band& band : bands_for(rays, rainbow.passes, rainbow.samples, frame.pixel_pitch_mm)) {
     REQUIRE(band.mix.size() == band.last - band.first);
-    CHECK(std::accumulate(band.mix.begin(), band.mix.end(), 0.0) == doctest::Approx(1.0));
+    CHECK(std::accumulate(band.mix.begin(), band.mix.end(), 0.0) == test::approx(1.0));
     several = several || band.mix.size() > 1;
   }
   CHECK(several);
@@ -400,7 +401,7 @@ TEST_CASE("a ghost whose transmittance differs over its pupil has the light of e
       return sums;
     };
     const std::array<double, 3> ours = sums_at(3e-3), truth = sums_at(1e-4);
-    for (std::size_t c = 0; c < 3; ++c) CHECK(ours[c] == doctest::Approx(truth[c]).epsilon(0.02));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(ours[c] == test::approx(truth[c]).epsilon(0.02));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "contrejour/expert/metrics.h"
 #include "contrejour/render.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/kept_picture.h"
 #include "support/scenes.h"
@@ -115,7 +116,7 @@ inline double rms_difference(const Image& a, const Image& b) {
 inline void check_against(const Image& truth, const Image& image, const Bounds& bounds) {
   CHECK(rms_difference(truth, image) <= bounds.rms * peak_of(truth));
   CHECK(psnr_db(truth, image) >= bounds.psnr_db);
-  CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.flux));
+  CHECK(sum(image) / sum(truth) == test::approx(1.0).epsilon(bounds.flux));
 }
 
 }  // namespace contrejour::test

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -72,7 +73,7 @@ TEST_CASE("flare is linear in the light, and lights add [slow]") {
     a.value = {1000.0, 1000.0, 1000.0};
     const Image bright = image_of(bounds, lens, a, settings);
     CHECK(largest_difference(sum_of(bright, once, -999.0F), once) <= 1e-3 * peak_of(once));
-    CHECK(sum(bright) / (1000.0 * sum(once)) == doctest::Approx(1.0).epsilon(1e-5));
+    CHECK(sum(bright) / (1000.0 * sum(once)) == test::approx(1.0).epsilon(1e-5));
   });
 }
 
@@ -105,7 +106,7 @@ TEST_CASE("finer pixels share the light of coarser ones [slow]") {
     const Image once = image_of(bounds, lens, light, coarse);
     const Image twice = binned(image_of(bounds, lens, light, fine));
     CHECK(psnr_db(once, twice) >= std::min(bounds.psnr_db, 55.0) - (bounds.traits.integrates_pixels ? 0.0 : 6.0));
-    CHECK(sum(twice) / sum(once) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
+    CHECK(sum(twice) / sum(once) == test::approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
   });
 }
 
@@ -119,7 +120,7 @@ TEST_CASE("a frame of one pixel holds what all pixels of the same area hold [slo
   for_each_method([&](const Bounds& bounds) {
     const double all = sum(image_of(bounds, lens, light, many));
     const double single = sum(image_of(bounds, lens, light, one));
-    if (bounds.traits.integrates_pixels) CHECK(single == doctest::Approx(all).epsilon(0.01));
+    if (bounds.traits.integrates_pixels) CHECK(single == test::approx(all).epsilon(0.01));
   });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -108,7 +109,7 @@ TEST_CASE("a plate's ghost has the shadows of its dirt where it lies, and loses 
       // is a step.
       CHECK(std::sqrt(squares / (kSide * kSide)) < (bounds.traits.integrates_pixels ? 0.015 : 0.06));
       CHECK(sum(image) / 3.0 / (0.04 * 0.04) ==
-            doctest::Approx(passed).epsilon(bounds.traits.integrates_pixels ? 2e-3 : 0.02));
+            test::approx(passed).epsilon(bounds.traits.integrates_pixels ? 2e-3 : 0.02));
     });
   }
 }
@@ -121,11 +122,11 @@ TEST_CASE("a picture of dirt dims what it covers") {
   const test::Settings settings = green({kSide, kSide, 0, 0, kSide, kSide, 0.08});
   for_each_method([&](const Bounds& bounds) {
     const Image image = image_of(bounds, lens, Light{}, settings);
-    CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(0.875).epsilon(0.01));
+    CHECK(sum(image) / 3.0 / (0.04 * 0.04) == test::approx(0.875).epsilon(0.01));
     const double bright = image.at(25, 25);
-    CHECK(image.at(55, 25) == doctest::Approx(0.5 * bright).epsilon(1e-3));
-    CHECK(image.at(55, 55) == doctest::Approx(bright).epsilon(1e-3));
-    CHECK(image.at(25, 55) == doctest::Approx(bright).epsilon(1e-3));
+    CHECK(image.at(55, 25) == test::approx(0.5 * bright).epsilon(1e-3));
+    CHECK(image.at(55, 55) == test::approx(bright).epsilon(1e-3));
+    CHECK(image.at(25, 55) == test::approx(bright).epsilon(1e-3));
   });
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("ringing and dirt together, and dirt before a near light, as the refer
       if (bounds.traits.is_exact) return;
       const Image image = image_of(bounds, s.dirty, s.light, s.frame);
       CHECK(psnr_db(truth, image) >= std::min(bounds.psnr_db, psnr));
-      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 0.01)));
+      CHECK(sum(image) / sum(truth) == test::approx(1.0).epsilon(std::max(bounds.flux, 0.01)));
     });
   };
   LensScene ringing = heliar_scene(some_dirt(DirtPlane::Stop));
@@ -250,7 +251,7 @@ TEST_CASE("shadows of the front lie where rays through the front say [slow]") {
     REQUIRE(counted > 30);
     CHECK(flux_transmitted < 0.95 * flux);
     CHECK(std::sqrt(squares / counted) < (bounds.traits.integrates_pixels ? 0.05 : 0.1));
-    CHECK(sum(dark) / sum(lit) == doctest::Approx(flux_transmitted / flux).epsilon(0.01));
+    CHECK(sum(dark) / sum(lit) == test::approx(flux_transmitted / flux).epsilon(0.01));
   });
 }
 
@@ -302,7 +303,7 @@ TEST_CASE("as much dirt as there may be leaves little light, and none of it nega
         if (bounds.traits.is_exact) return;
         const Image image = image_of(bounds, lens, Light{}, settings);
         for (const float v : image.pixels) CHECK_UNARY(v > -1e-4 * level && v < 1.05 * level);
-        if (dust_mm >= 4.0) CHECK(sum(image) == doctest::Approx(0.0));
+        if (dust_mm >= 4.0) CHECK(sum(image) == test::approx(0.0));
       });
     }
   }

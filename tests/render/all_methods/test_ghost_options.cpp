@@ -6,6 +6,7 @@
 
 #include "render/all_methods/methods.h"
 #include "render/planning/applied_adjustment.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -47,7 +48,7 @@ TEST_CASE("gains and colours of one ghost, and of all") {
     const double factor[] = {1.5, 0.375, 0.0};
     for (std::size_t c = 0; c < 3; ++c) {
       const double expected = factor[c] * channel_sum(one, c) + 3.0 * channel_sum(other, c);
-      CHECK(channel_sum(image, c) == doctest::Approx(expected).epsilon(std::max(bounds.flux, 1e-5)));
+      CHECK(channel_sum(image, c) == test::approx(expected).epsilon(std::max(bounds.flux, 1e-5)));
     }
   });
 }
@@ -102,7 +103,7 @@ TEST_CASE("first-order positions are those at which chief rays of ghosts land") 
       CAPTURE(ghosts[g].j);
       const double expected = image_point(ghost_path(lens, ghosts[g], lambda_nm)) / direct_mm;
       CHECK(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).relative_image_height ==
-            doctest::Approx(expected).epsilon(1e-3));
+            test::approx(expected).epsilon(1e-3));
     }
   }
 }
@@ -117,9 +118,9 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
     const double position =
         std::clamp(ghost_first_order(lens, ghosts[g], lens.design_wavelength_nm).relative_image_height, -1.0, 1.0);
-    CHECK(adjustments[g].tint[0] == doctest::Approx(position < 0.0 ? 1.0 + position : 1.0 + 2.0 * position));
-    CHECK(adjustments[g].tint[1] == doctest::Approx(2.0 * (1.0 - std::abs(position))));
-    CHECK(adjustments[g].tint[2] == doctest::Approx(position < 0.0 ? -4.0 * position : 0.0));
+    CHECK(adjustments[g].tint[0] == test::approx(position < 0.0 ? 1.0 + position : 1.0 + 2.0 * position));
+    CHECK(adjustments[g].tint[1] == test::approx(2.0 * (1.0 - std::abs(position))));
+    CHECK(adjustments[g].tint[2] == test::approx(position < 0.0 ? -4.0 * position : 0.0));
   }
   options = {};
   options.jitter = 0.1;
@@ -127,7 +128,7 @@ TEST_CASE("a ramp colours ghosts by where they lie; scatter is seeded and has it
   double squares = 0.0;
   for (const AppliedAdjustment& adjustment : scattered) squares += dot(adjustment.shift_mm, adjustment.shift_mm);
   const double rms = std::sqrt(squares / static_cast<double>(ghosts.size())) / (200.0 * frame.pixel_pitch_mm);
-  CHECK(rms == doctest::Approx(0.1).epsilon(0.12));  // 312 ghosts: a standard deviation of 3 per cent
+  CHECK(rms == test::approx(0.1).epsilon(0.12));  // 312 ghosts: a standard deviation of 3 per cent
   const auto alone = applied_adjustments(lens, std::span(&ghosts[100], 1), options, frame);
   CHECK(alone[0].shift_mm == scattered[100].shift_mm);
   options.jitter_seed = 1;
@@ -142,7 +143,7 @@ TEST_CASE("ghosts of a light at the frame's corner have the edge's gain") {
     for (const auto& [uv, gain] : {std::pair{Vec2{1.0, 1.0}, 0.25}, std::pair{Vec2{0.75, 0.75}, 0.625}}) {
       const Light light = light_at(s.lens, s.settings.frame, uv);
       const double plain = sum(image_of(bounds, s.lens, light, s.settings));
-      CHECK(sum(image_of(bounds, s.lens, light, settings)) / plain == doctest::Approx(gain).epsilon(1e-3));
+      CHECK(sum(image_of(bounds, s.lens, light, settings)) / plain == test::approx(gain).epsilon(1e-3));
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 #include "support/pictures.h"
 
 using namespace contrejour;
@@ -63,7 +64,7 @@ void check_plate(const Iris& iris) {
     // averaged.
     CHECK(std::sqrt(squares / (80 * 80)) < (bounds.traits.integrates_pixels ? 0.012 : 0.15));
     CHECK(worst < (bounds.traits.integrates_pixels ? 0.1 : 1.001));
-    CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 5e-3)));
+    CHECK(sum(image) / 3.0 / (0.04 * 0.04) == test::approx(1.0).epsilon(std::max(bounds.flux, 5e-3)));
   });
 }
 
@@ -93,7 +94,7 @@ TEST_CASE("every number of blades, the ends of every range") {
       for_each_method([&](const Bounds& bounds) {
         if (bounds.traits.is_slow && blades % 8 != 0) return;
         const double flux = sum(image_of(bounds, lens, Light{}, settings)) / 3.0 / (0.04 * 0.04);
-        CHECK(flux == doctest::Approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
+        CHECK(flux == test::approx(1.0).epsilon(std::max(bounds.flux, 2e-3)));
       });
     }
   }

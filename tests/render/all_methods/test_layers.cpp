@@ -8,6 +8,7 @@
 #include "contrejour/expert/flare_layers.h"
 #include "contrejour/renderer.h"
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -239,7 +240,7 @@ TEST_CASE("more lights than layers: the dimmest share one") {
   CHECK(flare.layers.size() == kMaxLightLayers + 1);
   CHECK(flare.layers.back().name == "rest");
   CHECK(sum(whole_image(flare.layers.back(), 24, 16)) ==
-        doctest::Approx(0.02 * sum(whole_image(flare.layers.front(), 24, 16))).epsilon(0.01));
+        test::approx(0.02 * sum(whole_image(flare.layers.front(), 24, 16))).epsilon(0.01));
   const std::vector<std::string> names = names_of(flare);
   CHECK(std::ranges::count(names, "light3") == 1);
   CHECK(std::ranges::count(names, "light4") == 0);

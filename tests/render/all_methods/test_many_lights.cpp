@@ -4,6 +4,7 @@
 
 #include "contrejour/expert/polynomial_range.h"
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -24,7 +25,7 @@ TEST_CASE("twenty lights of a zoom have the same flux by polynomials as by trace
   const Flare traced = flare_of("adaptive", lens, lights, settings);
   const Flare fitted = flare_of("polynomial", lens, lights, settings);
   CHECK(fitted.statistics.traced_flux < 0.2);
-  CHECK(sum(fitted.image) / sum(traced.image) == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(sum(fitted.image) / sum(traced.image) == test::approx(1.0).epsilon(0.005));
 }
 
 TEST_CASE("a fit of a range of focus draws each of its states as accurately as traced rays [slow]") {

@@ -7,6 +7,7 @@
 
 #include "contrejour/expert/first_order.h"
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -61,9 +62,9 @@ TEST_CASE("a plate's ghost of a light at half a metre is the stop's shadow, as l
     for_each_method([&](const Bounds& bounds) {
       const Image image = image_of(bounds, lens, light, settings);
       const Disc inner = disc_of(image, 0.08, radius_mm - 0.2);
-      CHECK(inner.mean == doctest::Approx(level).epsilon(0.005));
+      CHECK(inner.mean == test::approx(level).epsilon(0.005));
       CHECK(inner.unevenness < 0.012);  // at 60 mm the cosines fall by 0.5 per cent to the rim
-      CHECK(sum(image) / 3.0 == doctest::Approx(0.04 * 0.04).epsilon(std::max(bounds.flux, 2e-3)));
+      CHECK(sum(image) / 3.0 == test::approx(0.04 * 0.04).epsilon(std::max(bounds.flux, 2e-3)));
       double stray = 0.0;
       for (int x = 0; x < 120; ++x)
         if (std::abs(x + 0.5 - 60.0) * 0.08 > radius_mm + 0.2) stray = std::max<double>(stray, image.at(x, 60));
@@ -129,7 +130,7 @@ TEST_CASE("a near light's ghosts near the axis are where the lens's matrices say
       const TracedRay ray =
           trace(ghost_path(lens, ghost, 550.0), {{0.0, height_mm, 0.0}, light.direction_at({0.0, height_mm, 0.0})});
       const double expected = m.a * height_mm + m.b * height_mm / distance_mm;
-      CHECK(ray.sensor_mm.y == doctest::Approx(expected).epsilon(1e-4));
+      CHECK(ray.sensor_mm.y == test::approx(expected).epsilon(1e-4));
     }
   }
 }
@@ -157,7 +158,7 @@ TEST_CASE("lights that cannot be: refused with a reason, the nearest that can re
     for_each_method([&](const Bounds& bounds) {
       const Image image = image_of(bounds, lens, light, settings);  // every value is a finite number
       // With so few pixels, sampled at their middles, small ghosts may be missed.
-      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.05 : 0.5));
+      CHECK(sum(image) / sum(truth) == test::approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.05 : 0.5));
     });
   }
 }
@@ -175,6 +176,6 @@ TEST_CASE("lights at several distances add, whatever the threads [slow]") {
     CHECK(one.pixels == three.pixels);
     double apart = 0.0;
     for (const Light& light : lights) apart += sum(image_of(bounds, lens, light, settings));
-    CHECK(sum(one) == doctest::Approx(apart).epsilon(std::max(bounds.flux, 1e-4)));
+    CHECK(sum(one) == test::approx(apart).epsilon(std::max(bounds.flux, 1e-4)));
   });
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "render/all_methods/methods.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::test;
@@ -89,7 +90,7 @@ TEST_CASE("a plate's ghost is a level disc of R^2 times the light") {
     }
     CHECK(worst < 0.005);
     CHECK(stray < 1e-6);
-    CHECK(sum(image) / 3.0 == doctest::Approx(r * r).epsilon(std::max(bounds.flux, 1e-3)));
+    CHECK(sum(image) / 3.0 == test::approx(r * r).epsilon(std::max(bounds.flux, 1e-3)));
   });
 }
 
@@ -101,8 +102,8 @@ TEST_CASE("a ball's ghost carries R^2, at almost normal incidence") {
   const Image truth = truth_of(lens, light, settings);
   for_each_method([&](const Bounds& bounds) {
     const double flux = sum(image_of(bounds, lens, light, settings));
-    CHECK(flux / 3.0 == doctest::Approx(0.04 * 0.04).epsilon(std::max(bounds.flux, 0.01)));
-    CHECK(flux / sum(truth) == doctest::Approx(1.0).epsilon(bounds.flux));
+    CHECK(flux / 3.0 == test::approx(0.04 * 0.04).epsilon(std::max(bounds.flux, 0.01)));
+    CHECK(flux / sum(truth) == test::approx(1.0).epsilon(bounds.flux));
   });
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("the reference renders what is kept of it [slow]") {
     const Image kept = kept_truth_of(name, scene.lens, scene.light, scene.settings);
     const Image now = truth_of(scene.lens, scene.light, scene.settings);
     CHECK(psnr_db(kept, now) >= 80.0);
-    CHECK(sum(now) / sum(kept) == doctest::Approx(1.0).epsilon(1e-5));
+    CHECK(sum(now) / sum(kept) == test::approx(1.0).epsilon(1e-5));
   }
 }
 
@@ -226,8 +227,7 @@ TEST_CASE("by default each channel has the light of many wavelengths, by every m
     const Rgb truth = sums(flare_of("adaptive", lens, {&light, 1}, many).image);
     for_each_method([&](const Bounds& bounds) {
       const Rgb ours = sums(image_of(bounds, lens, light, settings));
-      for (std::size_t c = 0; c < 3; ++c)
-        CHECK(ours[c] / truth[c] == doctest::Approx(1.0).epsilon(bounds.flux + 0.015));
+      for (std::size_t c = 0; c < 3; ++c) CHECK(ours[c] / truth[c] == test::approx(1.0).epsilon(bounds.flux + 0.015));
     });
   }
 }

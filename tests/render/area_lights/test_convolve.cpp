@@ -10,6 +10,7 @@
 
 #include "render/area_lights/convolve.h"
 #include "render/area_lights/image_pyramid.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::area;
@@ -219,7 +220,7 @@ TEST_CASE("a spot at any level comes back at its position, with its flux and the
     CHECK(std::ranges::all_of(flat.pixels, [](float v) { return v >= 0.0F; }));
     for (int c = 0; c < 3; ++c) {
       const Moments m = moments_of(flat, c);
-      CHECK(m.flux == doctest::Approx(1.0 + c).epsilon(1e-5));
+      CHECK(m.flux == test::approx(1.0 + c).epsilon(1e-5));
       CHECK(length(m.mean - expected) < 0.01 * radius_px);
       const LinearMap wanted = mapped_covariance(map, piece.covariance);
       // A pixel's light is spread over it, with a variance of a twelfth of its side squared about its middle, which is
@@ -289,5 +290,5 @@ TEST_CASE("what is drawn at two levels at once comes down as if added at the fin
         picture.at(x, y, c) = static_cast<float>(16.0 * mean(4.0 * (at.left + x), 4.0 * (at.left + x + 1)));
   pyramid.add({picture}, at, delta, 0.0, {});
   const Image flat = std::move(pyramid).flattened({});
-  for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == doctest::Approx(mean(x, x + 1)).epsilon(1e-4));
+  for (int x = 0; x < 64; ++x) CHECK(flat.at(x, 20, 1) == test::approx(mean(x, x + 1)).epsilon(1e-4));
 }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "render/area_lights/light_pieces.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::area;
@@ -36,15 +37,15 @@ TEST_CASE("a disc's pieces hold its value, and a small disc's covariance is a qu
       centre = centre + piece.middle * (piece.point.value[0] / light.value[0]);
       double fraction = 0.0;
       for (const ShapeSample& s : piece.samples) fraction += s.fraction[1];
-      CHECK(fraction == doctest::Approx(1.0));
+      CHECK(fraction == test::approx(1.0));
       CHECK(piece.point.is_point());
     }
-    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(light.value[c]));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == test::approx(light.value[c]));
     CHECK(length(centre) < 1e-6);
     if (pieces.size() > 1) continue;
     const double wanted = 0.25 * std::pow(std::tan(radius), 2);
-    CHECK(pieces[0].covariance.x.x == doctest::Approx(wanted).epsilon(0.01));
-    CHECK(pieces[0].covariance.y.y == doctest::Approx(wanted).epsilon(0.01));
+    CHECK(pieces[0].covariance.x.x == test::approx(wanted).epsilon(0.01));
+    CHECK(pieces[0].covariance.y.y == test::approx(wanted).epsilon(0.01));
   }
 }
 
@@ -56,11 +57,11 @@ TEST_CASE("a shape's pieces lie where its light is, with the fraction of each ch
   light.value = {10.0, 20.0, 5.0};
   const auto pieces = pieces_of(light);
   REQUIRE(pieces.size() == 1);
-  for (std::size_t c = 0; c < 3; ++c) CHECK(pieces[0].point.value[c] == doctest::Approx(light.value[c]));
+  for (std::size_t c = 0; c < 3; ++c) CHECK(pieces[0].point.value[c] == test::approx(light.value[c]));
   Vec2 red;
   for (const ShapeSample& s : pieces[0].samples) red = red + (s.at + pieces[0].middle) * s.fraction[0];
-  CHECK(red.x == doctest::Approx(-0.002));
-  CHECK(red.y == doctest::Approx(0.0));
+  CHECK(red.x == test::approx(-0.002));
+  CHECK(red.y == test::approx(0.0));
 }
 
 TEST_CASE("extents that are none are refused with a reason") {
@@ -88,9 +89,9 @@ TEST_CASE("extents that are none are refused with a reason") {
 
 TEST_CASE("offset from a direction: right and up as the photographer sees them") {
   const Vec3 right = offset_direction({0, 0, 1}, {0.1, 0.0}), up = offset_direction({0, 0, 1}, {0.0, 0.1});
-  CHECK(angles_from_direction(right).azimuth_rad == doctest::Approx(std::atan(0.1)));
-  CHECK(angles_from_direction(up).elevation_rad == doctest::Approx(std::atan(0.1)));
+  CHECK(angles_from_direction(right).azimuth_rad == test::approx(std::atan(0.1)));
+  CHECK(angles_from_direction(up).elevation_rad == test::approx(std::atan(0.1)));
   const Vec3 d = direction_from_angles(0.7, -0.5);
   CHECK(length(offset_direction(d, {}) - d) < 1e-12);
-  CHECK(dot(offset_direction(d, {0.3, 0.4}), d) == doctest::Approx(1.0 / std::sqrt(1.25)));
+  CHECK(dot(offset_direction(d, {0.3, 0.4}), d) == test::approx(1.0 / std::sqrt(1.25)));
 }

@@ -9,6 +9,7 @@
 
 #include "render/area_lights/blur_clusters.h"
 #include "render/area_lights/piece_choice.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -49,7 +50,7 @@ TEST_CASE("divisions leave the error allowed, the largest errors most divided") 
     double sum = 0.0;
     for (const GhostOfArea& ghost : ghosts) sum += left(ghost);
     const double whole = 1.491, least = left(whole, 12);  // that of the finest divisions does not count
-    CHECK(sum - least == doctest::Approx(std::min(allowed, whole - least)).epsilon(1e-6));
+    CHECK(sum - least == test::approx(std::min(allowed, whole - least)).epsilon(1e-6));
     for (std::size_t k = 0; k + 1 < ghosts.size(); ++k) CHECK(place(ghosts[k]) >= place(ghosts[k + 1]));
   }
 }
@@ -85,7 +86,7 @@ TEST_CASE("a line of a ghost that comes into the frame does not change the ghost
   }
   // The blur's shorter radius fell to a sixth at once.
   for (std::size_t k = 1; k < blurs.size(); ++k)
-    CHECK(blurs[k].blur_px.x == doctest::Approx(blurs[k - 1].blur_px.x).epsilon(0.3));
+    CHECK(blurs[k].blur_px.x == test::approx(blurs[k - 1].blur_px.x).epsilon(0.3));
 }
 
 TEST_CASE("a ghost that joins another's image does not change its blur") {
@@ -105,5 +106,5 @@ TEST_CASE("a ghost that joins another's image does not change its blur") {
   light.radius_rad = kSunRadius_rad;
   const BlurClusters made = blur_clusters(ghosts, pieces_of(light).front(), frame, 1.0, 0.5);
   REQUIRE(made.clusters.size() == 1);
-  CHECK(made.clusters.front().px_from_tangents.x.x == doctest::Approx(sharp.px.x.x));
+  CHECK(made.clusters.front().px_from_tangents.x.x == test::approx(sharp.px.x.x));
 }

@@ -14,6 +14,7 @@
 #include "base/scalar.h"
 #include "contrejour/expert/metrics.h"
 #include "contrejour/expert/moving_light.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/scenes.h"
 
@@ -117,7 +118,7 @@ TEST_CASE("large lights are the sum of points over them, whose caustics and rims
     settings.set_error(0.001);
     const Image truth = test::flare_of("adaptive", lens, points_over(light, 120), settings).image;
     CHECK(psnr_db(truth, ours) > at.min_db);
-    CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.015));
+    CHECK(test::sum(ours) == test::approx(test::sum(truth)).epsilon(0.015));
   }
 }
 
@@ -142,7 +143,7 @@ TEST_CASE("a light that moves has the flare of lights along its path [slow]") {
     const Image truth = test::flare_of("adaptive", lens, points, settings).image;
     const Image ours = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
     CHECK(psnr_db(truth, ours) > 45.0);
-    CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.01));
+    CHECK(test::sum(ours) == test::approx(test::sum(truth)).epsilon(0.01));
   }
 }
 
@@ -262,7 +263,7 @@ TEST_CASE("the flux does not depend on the size") {
       light.radius_rad = radius;
       const double sum = test::sum(test::flare_of("adaptive", lens, {&light, 1}, settings).image);
       if (radius == 0.0) flux = sum;
-      if (shift_mm == 0.0) CHECK(sum == doctest::Approx(flux).epsilon(0.004));
+      if (shift_mm == 0.0) CHECK(sum == test::approx(flux).epsilon(0.004));
       CHECK(sum > 0.2 * flux);
     }
   }
@@ -354,11 +355,11 @@ TEST_CASE("a disc's starburst is the sum of its points', and holds the light's v
   light.radius_rad *= 4.0;
   const Image ours = test::flare_of("bundle", lens, {&light, 1}, settings).image;
   const Image truth = test::flare_of("bundle", lens, points_over(light, 1200), settings).image;
-  CHECK(test::sum(ours) == doctest::Approx(test::sum(truth)).epsilon(0.003));
+  CHECK(test::sum(ours) == test::approx(test::sum(truth)).epsilon(0.003));
   CHECK(psnr_db(truth, ours) > 35.0);
   // The tail outside the disc, as a ratio.
   for (const auto& [x, y] : {std::pair{10, 10}, {200, 20}, {60, 140}, {180, 80}})
-    CHECK(flux_in(ours, x, y, 8) == doctest::Approx(flux_in(truth, x, y, 8)).epsilon(0.01));
+    CHECK(flux_in(ours, x, y, 8) == test::approx(flux_in(truth, x, y, 8)).epsilon(0.01));
 }
 
 TEST_CASE("a disc's direct image lies where the light is, within a small part of a pixel") {
@@ -370,7 +371,7 @@ TEST_CASE("a disc's direct image lies where the light is, within a small part of
     Light light = sun(std::atan(tangent), 0.0);
     light.radius_rad = 1.5 * settings.frame.pixel_pitch_mm / lens.focal_length_mm;
     const double x = centroid_of(test::flare_of("bundle", lens, {&light, 1}, settings).image).x;
-    if (k > 0) CHECK(x - last == doctest::Approx(0.2).epsilon(0.05));
+    if (k > 0) CHECK(x - last == test::approx(0.2).epsilon(0.05));
     last = x;
   }
 }
@@ -383,8 +384,8 @@ TEST_CASE("a frame's shift moves the ghosts of lights with a size, too") {
   const Vec2 before = centroid_of(test::flare_of("adaptive", lens, {&light, 1}, test::green(frame)).image);
   frame.shift_mm = {-7.25 * frame.pixel_pitch_mm, 4.5 * frame.pixel_pitch_mm};
   const Vec2 after = centroid_of(test::flare_of("adaptive", lens, {&light, 1}, test::green(frame)).image);
-  CHECK(after.x - before.x == doctest::Approx(7.25).epsilon(0.01));
-  CHECK(after.y - before.y == doctest::Approx(4.5).epsilon(0.01));
+  CHECK(after.x - before.x == test::approx(7.25).epsilon(0.01));
+  CHECK(after.y - before.y == test::approx(4.5).epsilon(0.01));
 }
 
 TEST_CASE("starburst and glare of wide lights add light everywhere, whatever their shape, and keep their flux") {
@@ -407,7 +408,7 @@ TEST_CASE("starburst and glare of wide lights add light everywhere, whatever the
         wide.shape = is_disc ? nullptr : std::make_shared<const LightShape>(panes(radius_rad));
         const Image drawn = test::flare_of("bundle", lens, {&wide, 1}, settings).image;
         CHECK(*std::ranges::min_element(drawn.pixels) >= 0.0F);
-        CHECK(test::sum(drawn) == doctest::Approx(test::sum(point)).epsilon(0.01));
+        CHECK(test::sum(drawn) == test::approx(test::sum(point)).epsilon(0.01));
       }
     }
   }

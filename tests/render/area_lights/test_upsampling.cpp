@@ -11,6 +11,7 @@
 
 #include "render/area_lights/convolve_block.h"
 #include "render/area_lights/upsampling.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::area;
@@ -113,7 +114,7 @@ TEST_CASE("halves of what is not negative are not, however much pixels differ, a
           const double in = row[first ? at - 3 + c : at + c], out = row[first ? at + c : at - 3 + c];
           coarse_sum += 0.125 * (in - out);
         }
-      CHECK(fine_sum == doctest::Approx(coarse_sum).epsilon(1e-6));
+      CHECK(fine_sum == test::approx(coarse_sum).epsilon(1e-6));
     }
   });
 }

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "render/bundle/flux_box.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using bundle::FluxBox;
@@ -69,7 +70,7 @@ TEST_CASE("every pixel gets the fraction of the polygon that covers it") {
     box.add_polygon(rotated, {{0.0, 0.0}, 2.0, {}});
     for (int y = 2; y < 12; ++y) {
       for (int x = 3; x < 15; ++x)
-        CHECK(at(box, x, y) == doctest::Approx(2.0 * sampled(polygon, x, y)).epsilon(0.02).scale(1.0));
+        CHECK(at(box, x, y) == test::approx(2.0 * sampled(polygon, x, y)).epsilon(0.02).scale(1.0));
     }
   }
 }
@@ -78,12 +79,12 @@ TEST_CASE("a polygon larger than the coverage buffer, and than the frame, is exa
   FluxBox box(PixelBox{0, 0, 300, 200});
   box.add_polygon(ellipse({150, 100}, {90, 70}, 0.3, 40), {{150, 100}, 1.0, {0.001, 0.0}});
   const double area = 0.5 * 40 * std::sin(2 * std::numbers::pi / 40) * 90 * 70;
-  CHECK(total(box) == doctest::Approx(area).epsilon(1e-5));
-  CHECK(at(box, 200, 100) == doctest::Approx(1.0505).epsilon(1e-5));
+  CHECK(total(box) == test::approx(area).epsilon(1e-5));
+  CHECK(at(box, 200, 100) == test::approx(1.0505).epsilon(1e-5));
 
   FluxBox all(PixelBox{0, 0, 300, 200});
   all.add_polygon(ellipse({150, 100}, {1e5, 1e5}, 0.3, 6), {{0, 0}, 1.0, {}});
-  CHECK(total(all) == doctest::Approx(60000.0).epsilon(1e-6));
+  CHECK(total(all) == test::approx(60000.0).epsilon(1e-6));
 }
 
 TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels") {
@@ -105,21 +106,21 @@ TEST_CASE("neighbours that share edges leave neither gaps nor doubled pixels") {
     }
   }
   for (int y = 1; y < 39; ++y) {
-    for (int x = 1; x < 39; ++x) CHECK(at(box, x, y) == doctest::Approx(1.0).epsilon(2e-6));
+    for (int x = 1; x < 39; ++x) CHECK(at(box, x, y) == test::approx(1.0).epsilon(2e-6));
   }
 }
 
 TEST_CASE("a line spreads its flux by length and loses what leaves the frame") {
   FluxBox box(PixelBox{0, 0, 10, 10});
   box.add_line({0.5, 0.5}, {8.5, 0.5}, 8.0);
-  CHECK(at(box, 0, 0) == doctest::Approx(0.5));
-  CHECK(at(box, 3, 0) == doctest::Approx(1.0));
-  CHECK(total(box) == doctest::Approx(8.0));
+  CHECK(at(box, 0, 0) == test::approx(0.5));
+  CHECK(at(box, 3, 0) == test::approx(1.0));
+  CHECK(total(box) == test::approx(8.0));
   box.add_line({-5.0, 9.0}, {5.0, -1.0}, 2.0);
-  CHECK(total(box) == doctest::Approx(8.0 + 2.0 * 0.4));
+  CHECK(total(box) == test::approx(8.0 + 2.0 * 0.4));
   box.add_line({4.0, 4.0}, {4.0, 9.0}, 1.0);   // along a border of pixels
   box.add_line({7.3, 7.3}, {7.3, 7.3}, 0.0);
-  CHECK(total(box) == doctest::Approx(9.8));
+  CHECK(total(box) == test::approx(9.8));
   box.add_line({1e6, 3.0}, {-1e6, 3.5}, 2e6);
-  CHECK(total(box) == doctest::Approx(19.8).epsilon(1e-4));
+  CHECK(total(box) == test::approx(19.8).epsilon(1e-4));
 }

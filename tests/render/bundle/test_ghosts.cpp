@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "render/bundle/scene.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using test::bundle_ghost;
@@ -70,7 +71,7 @@ TEST_CASE("a plate's ghost is a flat disc of R^2 T^2 times the light") {
     }
     CHECK(worst < 0.001);  // required: 0.005
     const double disc = std::numbers::pi * 36.0 / (frame.pixel_pitch_mm * frame.pixel_pitch_mm) * level;
-    CHECK(ghost.total() == doctest::Approx(disc).epsilon(side == 16 ? 5e-3 : 5e-4));
+    CHECK(ghost.total() == test::approx(disc).epsilon(side == 16 ? 5e-3 : 5e-4));
   }
 }
 
@@ -97,7 +98,7 @@ TEST_CASE("folded ghosts keep their flux and have no spikes") {
     CAPTURE(ghost.i);
     CAPTURE(ghost.j);
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame);
-    CHECK(mine.total() / truth.total() == doctest::Approx(1.0).epsilon(0.0025));
+    CHECK(mine.total() / truth.total() == test::approx(1.0).epsilon(0.0025));
     CHECK(mine.peak() < 1.05 * truth.peak());
     CHECK(mine.peak() > 0.9 * truth.peak());
   }
@@ -113,7 +114,7 @@ TEST_CASE("ghosts smaller than a pixel keep their flux") {
     CAPTURE(ghost.i);
     CAPTURE(ghost.j);
     const GhostImage mine = bundle_ghost(lens, ghost, direction, {4, 4, 0, 0, 4, 4, 500.0}, 128);
-    CHECK(mine.total() == doctest::Approx(measure.flux_mm2).epsilon(0.003));
+    CHECK(mine.total() == test::approx(measure.flux_mm2).epsilon(0.003));
   }
 }
 
@@ -123,7 +124,7 @@ TEST_CASE("ghosts that enter through a thousandth of a fisheye's front are found
   const Vec3 direction = direction_for_image_point(lens, frame.sensor_from_uv({0.25, 0.75}), 550.0);
   const GhostImage mine = bundle_ghost(lens, {3, 4}, direction, frame, 64);
   // 2000 x 2000 rays over the whole entrance window, 218 of them open.
-  CHECK(mine.total() == doctest::Approx(1.222e-6).epsilon(0.03));
+  CHECK(mine.total() == test::approx(1.222e-6).epsilon(0.03));
 }
 
 TEST_CASE("a polygonal iris cuts as in the reference") {
@@ -134,7 +135,7 @@ TEST_CASE("a polygonal iris cuts as in the reference") {
     // At density 1 the reference itself is off by 3 per cent of the peak where the iris has its corners.
     const GhostImage truth = reference_ghost(lens, ghost, direction, frame, 2.0);
     const GhostImage mine = bundle_ghost(lens, ghost, direction, frame, 128);
-    CHECK(mine.total() / truth.total() == doctest::Approx(1.0).epsilon(0.001));
+    CHECK(mine.total() / truth.total() == test::approx(1.0).epsilon(0.001));
     double worst = 0.0;
     for (std::size_t k = 0; k < truth.flux.size(); ++k) worst = std::max(worst, std::abs(mine.flux[k] - truth.flux[k]));
     CHECK(worst < 0.02 * truth.peak());

@@ -12,6 +12,7 @@
 #include "render/bundle/bundle.h"
 #include "render/bundle/item_renderer.h"
 #include "render/bundle/scene.h"
+#include "support/approx.h"
 #include "support/planned.h"
 #include "support/scenes.h"
 
@@ -137,7 +138,7 @@ TEST_CASE("bounds from the table draw what a search draws") {
   settings.bundle.precomputed_bounds = true;
   const Flare looked_up = drawn(lens, light, settings);
   CHECK(psnr_db(searched.image, looked_up.image) > 55.0);
-  CHECK(compare(searched.image, looked_up.image)->flux_ratio[1] == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(compare(searched.image, looked_up.image)->flux_ratio[1] == test::approx(1.0).epsilon(2e-3));
   CHECK(phase_ms(looked_up, "bounds") > 0.0);
 }
 
@@ -156,18 +157,18 @@ TEST_CASE("a map's figures: flat, curved, folded, stretched, hardly open") {
   const auto flat = bundle::measure_map(made_up([](Vec2 p) { return p * 3.0; }));
   CHECK(flat.area_variance < 1e-9);
   CHECK(flat.open_fraction == 1.0);
-  CHECK(flat.anisotropy == doctest::Approx(1.0).epsilon(1e-4));
+  CHECK(flat.anisotropy == test::approx(1.0).epsilon(1e-4));
   CHECK(bundle::grid_level(flat) == 16);
   // dx'/dx = 1 + x / 2: areas have variance 1/12 over x in -1 .. 1.
   const auto bent = bundle::measure_map(made_up([](Vec2 p) { return Vec2{p.x + 0.25 * p.x * p.x, p.y}; }));
-  CHECK(bent.area_variance == doctest::Approx(1.0 / 12.0).epsilon(0.01));
+  CHECK(bent.area_variance == test::approx(1.0 / 12.0).epsilon(0.01));
   CHECK(bundle::grid_level(bent) == 128);
   // x' = x^2: areas 2 x, mean size 1, variance 4/3.
   const auto folded = bundle::measure_map(made_up([](Vec2 p) { return Vec2{p.x * p.x, p.y}; }));
-  CHECK(folded.area_variance == doctest::Approx(4.0 / 3.0).epsilon(0.01));
+  CHECK(folded.area_variance == test::approx(4.0 / 3.0).epsilon(0.01));
   CHECK(bundle::grid_level(folded) == 256);
   const auto stretched = bundle::measure_map(made_up([](Vec2 p) { return Vec2{p.x * 2000.0, p.y}; }));
-  CHECK(stretched.anisotropy == doctest::Approx(2000.0).epsilon(1e-3));
+  CHECK(stretched.anisotropy == test::approx(2000.0).epsilon(1e-3));
   CHECK(bundle::is_very_anisotropic(stretched));
   CHECK_FALSE(bundle::is_very_anisotropic(folded));
   const auto small = bundle::measure_map(made_up([](Vec2 p) { return p; }, 0.2));
@@ -184,7 +185,7 @@ TEST_CASE("level cells differ from smooth ones by little, in flux not at all") {
   const Image level = drawn(lens, light, settings).image;
   CHECK(smooth.pixels != level.pixels);
   CHECK(psnr_db(smooth, level) > 40.0);
-  CHECK(compare(smooth, level)->flux_ratio[1] == doctest::Approx(1.0).epsilon(1e-4));
+  CHECK(compare(smooth, level)->flux_ratio[1] == test::approx(1.0).epsilon(1e-4));
 }
 
 TEST_CASE("very anisotropic ghosts, drawn finer or as points, keep their flux") {
@@ -199,7 +200,7 @@ TEST_CASE("very anisotropic ghosts, drawn finer or as points, keep their flux") 
   settings.bundle.anisotropic = BundleOptions::Anisotropic::Points;
   const Image points = one_ghost(lens, ghost, light, settings);
   for (const Image* other : {&finer, &points}) {
-    CHECK(compare(exact, *other)->flux_ratio[1] == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(compare(exact, *other)->flux_ratio[1] == test::approx(1.0).epsilon(1e-4));
   }
   CHECK(psnr_db(exact, finer) > 60.0);
 }
@@ -224,7 +225,7 @@ TEST_CASE("a few bands, blurred towards each other, come closer to many bands, f
     settings.bundle.spectral_filter = true;
     const Image filtered = one_ghost(lens, ghost, light, settings);
     CHECK(psnr_db(truth, filtered) > psnr_db(truth, plain) + 2.0);
-    CHECK(compare(plain, filtered)->flux_ratio[1] == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(compare(plain, filtered)->flux_ratio[1] == test::approx(1.0).epsilon(1e-3));
   }
 }
 
@@ -240,15 +241,15 @@ TEST_CASE("a band's flux is spread half way to its neighbours") {
   const std::vector<std::optional<bundle::MapFigures>> bands{band(10.5, 1.0), band(20.5, 1.0), band(40.5, 1.0)};
   const auto motions = bundle::band_motions(bands, frame);
   REQUIRE(motions[1].has_value());
-  CHECK(motions[1]->start({20.5, 16.5}).x == doctest::Approx(15.5));
-  CHECK(motions[1]->end({20.5, 16.5}).x == doctest::Approx(30.5));
-  CHECK(std::abs(motions[0]->end({10.5, 16.5}).x - motions[0]->start({10.5, 16.5}).x) == doctest::Approx(10.0));
+  CHECK(motions[1]->start({20.5, 16.5}).x == test::approx(15.5));
+  CHECK(motions[1]->end({20.5, 16.5}).x == test::approx(30.5));
+  CHECK(std::abs(motions[0]->end({10.5, 16.5}).x - motions[0]->start({10.5, 16.5}).x) == test::approx(10.0));
   bundle::FluxBox box({0, 0, 64, 32});
   box.add_point({20.5, 16.5}, 15.0);
   const bundle::FluxBox spread = bundle::blurred(box, *motions[1], frame, {0, Context{}});
   const auto at = [&](int x) { return spread.row(16)[static_cast<std::size_t>(x - spread.box().x0)]; };
-  CHECK(at(20) == doctest::Approx(1.0));
-  CHECK(at(29) == doctest::Approx(1.0));
-  CHECK(at(15) == doctest::Approx(0.5));
+  CHECK(at(20) == test::approx(1.0));
+  CHECK(at(29) == test::approx(1.0));
+  CHECK(at(15) == test::approx(0.5));
   CHECK_FALSE(bundle::band_motions(std::vector{band(1.0, 1.0)}, frame)[0].has_value());
 }

@@ -11,6 +11,7 @@
 #include "optics/trace/lens_steps.h"
 #include "optics/trace/packet_trace.h"
 #include "render/bundle/scene.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 
@@ -302,7 +303,7 @@ TEST_CASE("paths put together from a lens's steps are those of the ghosts' paths
       CHECK(plain.stop_crossings() == quick.stop_crossings());
       CHECK(plain.sensor_gap_mm() == quick.sensor_gap_mm());
       CHECK(plain.sensor_offset_mm() == quick.sensor_offset_mm());
-      CHECK(plain.inverse_stop_radius_per_mm() == doctest::Approx(quick.inverse_stop_radius_per_mm()).epsilon(1e-14));
+      CHECK(plain.inverse_stop_radius_per_mm() == test::approx(quick.inverse_stop_radius_per_mm()).epsilon(1e-14));
       Batch one(x_mm.size()), other(x_mm.size());
       for (auto [of, batch] : {std::pair(&plain, &one), std::pair(&quick, &other)})
         trace_packets(*of, PacketPrecision::Double, x_mm.data(), y_mm.data(), x_mm.size(), batch->arrays());

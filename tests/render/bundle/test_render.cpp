@@ -7,6 +7,7 @@
 #include "contrejour/expert/metrics.h"
 #include "render/bundle/bundle.h"
 #include "render/bundle/scene.h"
+#include "support/approx.h"
 #include "support/planned.h"
 #include "support/scenes.h"
 
@@ -35,7 +36,7 @@ TEST_CASE("bodonyi2023 eq. 13 spends fewer rays and stays close") {
   const auto difference = compare(full.image, scaled.image);
   REQUIRE(difference.has_value());
   CHECK(difference->psnr_db.value_or(1e9) > 40.0);
-  CHECK(difference->flux_ratio[1] == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(difference->flux_ratio[1] == test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("sigma and phi of eq. 13 set how many rays small ghosts get") {

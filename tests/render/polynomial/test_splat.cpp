@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/metrics.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
@@ -62,7 +63,7 @@ void check_convergence(const Scene& scene, double least_db) {
   CHECK(many_db > least_db);
   CHECK(many_db - few_db > 13.0);
   CHECK(many_db - few_db < 22.0);
-  CHECK(sum(many) / sum(cells) == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(sum(many) / sum(cells) == test::approx(1.0).epsilon(0.005));
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ TEST_CASE("points take a ghost's colour, offset and bands as cells do") {
   const Image cells = scene.drawn(0).image, points = scene.drawn(512).image;
   CHECK(psnr_db(cells, points) > 38.0);
   for (std::size_t channel = 0; channel < 3; ++channel)
-    CHECK(compare(cells, points)->flux_ratio[channel] == doctest::Approx(1.0).epsilon(0.005));
+    CHECK(compare(cells, points)->flux_ratio[channel] == test::approx(1.0).epsilon(0.005));
 }
 
 TEST_CASE("a picture as the iris blocks points as it clips cells [slow]") {
@@ -117,7 +118,7 @@ TEST_CASE("a light with a size is drawn from points, too") {
   scene.light.radius_rad = 0.02;
   const Image cells = scene.drawn(0).image, points = scene.drawn(512).image;
   CHECK(psnr_db(cells, points) > 50.0);
-  CHECK(sum(points) / sum(cells) == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(sum(points) / sum(cells) == test::approx(1.0).epsilon(0.005));
 }
 
 TEST_CASE("points refuse what they cannot draw, and end when cancelled") {

@@ -7,6 +7,7 @@
 #include "render/ray_maps/ghost_scene.h"
 #include "render/ray_maps/lobatto.h"
 #include "render/ray_maps/lobatto_rays.h"
+#include "support/approx.h"
 #include "support/flares.h"
 
 using namespace contrejour;
@@ -44,12 +45,12 @@ TEST_CASE("a bend's points are found again, and it stretches as it says") {
   const SideCurve curve{-3.0, 5.0, {0.02, -1e-4}, {-0.01, 2e-4}};
   for (const Vec2 p : {Vec2{-3, 0}, Vec2{1, 4}, Vec2{5, -6}, Vec2{-4, 7}}) {
     const double x = curve.entrance_x(p);
-    CHECK(curve.box_x({x, p.y}) == doctest::Approx(p.x).epsilon(1e-12));
+    CHECK(curve.box_x({x, p.y}) == test::approx(p.x).epsilon(1e-12));
     CHECK(curve.entrance_x({p.x + 0.5, p.y}) - curve.entrance_x({p.x - 0.5, p.y}) ==
-          doctest::Approx(curve.jacobian_x(p.y)).epsilon(1e-12));
+          test::approx(curve.jacobian_x(p.y)).epsilon(1e-12));
   }
-  CHECK(curve.entrance_x({-3.0, 4.0}) == doctest::Approx(-3.0 + 0.02 * 16 - 1e-4 * 256).epsilon(1e-12));
-  CHECK(curve.entrance_x({5.0, 4.0}) == doctest::Approx(5.0 - 0.01 * 16 + 2e-4 * 256).epsilon(1e-12));
+  CHECK(curve.entrance_x({-3.0, 4.0}) == test::approx(-3.0 + 0.02 * 16 - 1e-4 * 256).epsilon(1e-12));
+  CHECK(curve.entrance_x({5.0, 4.0}) == test::approx(5.0 - 0.01 * 16 + 2e-4 * 256).epsilon(1e-12));
 }
 
 TEST_CASE("a curved box holds all light of its wavelengths and no ray that fails") {
@@ -122,8 +123,7 @@ TEST_CASE("a ray set of a curved box: rays of the entrance plane, and their ligh
     const TracedRay ray = scene.exact({curved->curve.entrance_x(p), p.y}).ray;
     const Vec2 sensor = scene.light.to_lens_frame({ray_set.sensor_x_mm[node], ray_set.sensor_y_mm[node]});
     CHECK(length(sensor - ray.sensor_mm) < 1e-4);
-    CHECK(ray_set.transmission[node] ==
-          doctest::Approx(ray.transmission * curved->curve.jacobian_x(p.y)).epsilon(1e-4));
+    CHECK(ray_set.transmission[node] == test::approx(ray.transmission * curved->curve.jacobian_x(p.y)).epsilon(1e-4));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "render/pupils/direct_meter.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -37,7 +38,7 @@ TEST_CASE("a wavelength's direct flux is the same in another one's pupil") {
       const ReflectanceTables tables(lens, lambda_nm);
       const double own = meter.flux_mm2(tables);
       CHECK(own > 0.0);
-      CHECK(meter.flux_mm2(tables, *pupil) == doctest::Approx(own).epsilon(2e-4));
+      CHECK(meter.flux_mm2(tables, *pupil) == test::approx(own).epsilon(2e-4));
       // A box that cuts off some of the pupil, on any side, is not accepted.
       const Vec2 some = (pupil->high - pupil->low) * 0.3;
       for (const Rectangle& part :

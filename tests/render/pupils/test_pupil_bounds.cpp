@@ -9,6 +9,7 @@
 #include "ghosts/meridian.h"
 #include "ghosts/wavelengths.h"
 #include "render/pupils/pupil_bounds.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -168,9 +169,9 @@ TEST_CASE("a light's meridian is rotated to the lens's frame") {
   const Vec3 direction = normalized({-0.2, 0.3, 1.0});
   const Meridian meridian = meridian_of(direction);
   CHECK(meridian.light.direction.y == 0.0);
-  CHECK(meridian.light.direction.x * std::cos(meridian.rotation_rad) == doctest::Approx(direction.x));
-  CHECK(meridian.light.direction.x * std::sin(meridian.rotation_rad) == doctest::Approx(direction.y));
-  CHECK(std::cos(meridian.angle_rad()) == doctest::Approx(direction.z));
+  CHECK(meridian.light.direction.x * std::cos(meridian.rotation_rad) == test::approx(direction.x));
+  CHECK(meridian.light.direction.x * std::sin(meridian.rotation_rad) == test::approx(direction.y));
+  CHECK(std::cos(meridian.angle_rad()) == test::approx(direction.z));
   CHECK(meridian_of(Vec3{0.0, 0.0, 1.0}).rotation_rad == 0.0);
-  CHECK(rotated_back(Iris{5, 0.4}, meridian).rotation_rad == doctest::Approx(0.4 - meridian.rotation_rad));
+  CHECK(rotated_back(Iris{5, 0.4}, meridian).rotation_rad == test::approx(0.4 - meridian.rotation_rad));
 }

@@ -8,6 +8,7 @@
 
 #include "render/pupils/open_polygon.h"
 #include "render/pupils/pupil_shape.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -44,8 +45,8 @@ TEST_CASE("in a light's own frame, by half of the rays, a pupil is where it is i
       const double radius_mm = 2.0 * std::sqrt(0.5 * trace_of(all->covariance));
       CHECK(length(half->middle_mm - all->middle_mm) < 0.6 * radius_mm);
       CHECK(apart(half->covariance, all->covariance) < 0.25);
-      CHECK(half->area_mm2 == doctest::Approx(all->area_mm2).epsilon(0.25));
-      CHECK(half->border_mm == doctest::Approx(all->border_mm).epsilon(0.4));
+      CHECK(half->area_mm2 == test::approx(all->area_mm2).epsilon(0.25));
+      CHECK(half->border_mm == test::approx(all->border_mm).epsilon(0.4));
       CHECK_FALSE(half->border.empty());
       for (const BorderPoint& point : half->border) CHECK(length(point.start_mm - all->middle_mm) < 3.0 * radius_mm);
     }
@@ -86,13 +87,13 @@ TEST_CASE("a pupil changes steadily with the light, however the grid's rays lie"
 TEST_CASE("the open part of a triangle has the moments of its polygon") {
   // x + y <= 0.5 of the half square: a triangle a quarter as large.
   const OpenPolygon open = open_polygon({Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}, {-0.5, 0.5, 0.5});
-  CHECK(open.moments.area_mm2 == doctest::Approx(0.125));
-  CHECK(open.moments.centroid().x == doctest::Approx(0.5 / 3.0));
-  CHECK(open.moments.covariance().x.x == doctest::Approx(0.25 / 18.0));
-  CHECK(open.moments.covariance().x.y == doctest::Approx(-0.25 / 36.0));
+  CHECK(open.moments.area_mm2 == test::approx(0.125));
+  CHECK(open.moments.centroid().x == test::approx(0.5 / 3.0));
+  CHECK(open.moments.covariance().x.x == test::approx(0.25 / 18.0));
+  CHECK(open.moments.covariance().x.y == test::approx(-0.25 / 36.0));
   REQUIRE(open.has_border);
-  CHECK(length(open.border[1] - open.border[0]) == doctest::Approx(std::sqrt(0.5)));
+  CHECK(length(open.border[1] - open.border[0]) == test::approx(std::sqrt(0.5)));
   const OpenPolygon rest = open_polygon({Vec2{0.0, 0.0}, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}, {0.5, -0.5, -0.5});
-  CHECK(rest.moments.area_mm2 == doctest::Approx(0.375));
+  CHECK(rest.moments.area_mm2 == test::approx(0.375));
   CHECK(open_polygon({}, {1.0, 1.0, 1.0}).moments.area_mm2 == 0.0);
 }

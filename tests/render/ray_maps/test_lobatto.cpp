@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "render/ray_maps/lobatto.h"
+#include "support/approx.h"
 
 using namespace contrejour::ray_maps;
 
@@ -42,9 +43,9 @@ TEST_CASE("Lobatto points rise from -1 to 1, symmetric, closest at the ends") {
     CHECK(points.back() == 1.0);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
       CHECK(points[k] < points[k + 1]);
-      CHECK(points[k] == doctest::Approx(-points[points.size() - 1 - k]));
+      CHECK(points[k] == test::approx(-points[points.size() - 1 - k]));
       // The extremes of the Chebyshev polynomial of degree count - 1.
-      CHECK(std::abs(std::cos((count - 1) * std::acos(points[k]))) == doctest::Approx(1.0));
+      CHECK(std::abs(std::cos((count - 1) * std::acos(points[k]))) == test::approx(1.0));
     }
   }
 }
@@ -90,7 +91,7 @@ TEST_CASE("coefficients are those of Chebyshev polynomials") {
       for (const double x : nodes) row.push_back(static_cast<float>(std::cos(degree * std::acos(x))));
       const auto c = row_times(row, to_coefficients);
       for (int k = 0; k < count; ++k) {
-        CHECK(c[static_cast<std::size_t>(k)] == doctest::Approx(k == degree ? 1.0 : 0.0).epsilon(1e-6).scale(1.0));
+        CHECK(c[static_cast<std::size_t>(k)] == test::approx(k == degree ? 1.0 : 0.0).epsilon(1e-6).scale(1.0));
       }
     }
   }
@@ -122,8 +123,8 @@ TEST_CASE("products of matrices as by plain loops, padding zero") {
           double sum = 0.0;
           for (int k = 0; k < inner && c < columns; ++k) sum += static_cast<double>(t.at(k, r)) * b.at(k, c);
           const auto at = static_cast<std::size_t>(r * b.stride + c);
-          CHECK(out[at] == doctest::Approx(sum).epsilon(2e-6).scale(1.0));
-          CHECK(transposed[at] == doctest::Approx(sum).epsilon(2e-6).scale(1.0));
+          CHECK(out[at] == test::approx(sum).epsilon(2e-6).scale(1.0));
+          CHECK(transposed[at] == test::approx(sum).epsilon(2e-6).scale(1.0));
         }
       }
     }

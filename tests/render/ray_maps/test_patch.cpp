@@ -7,6 +7,7 @@
 
 #include "render/ray_maps/ghost_scene.h"
 #include "render/ray_maps/patch.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::ray_maps;
@@ -158,12 +159,12 @@ TEST_CASE("a ray set half of which is mirrored is the ray set of all rays") {
   off.low.y = std::nextafter(off.low.y, 0.0);  // no longer its own mirror image, so traced in full
   const LobattoRays full = scene.ray_set(off, 9);
   for (std::size_t k = 0; k < half.count(); ++k) {
-    CHECK(half.sensor_x_mm[k] == doctest::Approx(full.sensor_x_mm[k]).epsilon(1e-5));
-    CHECK(half.sensor_y_mm[k] == doctest::Approx(full.sensor_y_mm[k]).epsilon(1e-5).scale(1.0));
-    CHECK(half.weight[0][k] == doctest::Approx(full.weight[0][k]).epsilon(1e-4));
-    CHECK(half.relative_height[k] == doctest::Approx(full.relative_height[k]).epsilon(1e-5));
+    CHECK(half.sensor_x_mm[k] == test::approx(full.sensor_x_mm[k]).epsilon(1e-5));
+    CHECK(half.sensor_y_mm[k] == test::approx(full.sensor_y_mm[k]).epsilon(1e-5).scale(1.0));
+    CHECK(half.weight[0][k] == test::approx(full.weight[0][k]).epsilon(1e-4));
+    CHECK(half.relative_height[k] == test::approx(full.relative_height[k]).epsilon(1e-5));
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      CHECK(half.stop[0][axis][k] == doctest::Approx(full.stop[0][axis][k]).epsilon(1e-5).scale(1.0));
+      CHECK(half.stop[0][axis][k] == test::approx(full.stop[0][axis][k]).epsilon(1e-5).scale(1.0));
     }
   }
 }
@@ -177,7 +178,7 @@ TEST_CASE("a ray set turned over is the ray set of the box on the other side of 
   CHECK(rotated.box == traced.box);
   const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
     REQUIRE(a.size() == b.size());
-    for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k] == doctest::Approx(b[k]).epsilon(1e-4).scale(1e-2));
+    for (std::size_t k = 0; k < a.size(); ++k) CHECK(a[k] == test::approx(b[k]).epsilon(1e-4).scale(1e-2));
   };
   same(rotated.sensor_x_mm, traced.sensor_x_mm);
   same(rotated.sensor_y_mm, traced.sensor_y_mm);
@@ -185,8 +186,8 @@ TEST_CASE("a ray set turned over is the ray set of the box on the other side of 
   same(rotated.rim_squared, traced.rim_squared);
   for (std::size_t axis = 0; axis < 2; ++axis) same(rotated.stop[0][axis], traced.stop[0][axis]);
   for (std::size_t k = 0; k < rotated.count(); ++k) {
-    CHECK(rotated.weight[0][k] == doctest::Approx(traced.weight[0][k]).epsilon(1e-4));
-    CHECK(rotated.transmission[k] == doctest::Approx(traced.transmission[k]).epsilon(1e-4));
+    CHECK(rotated.weight[0][k] == test::approx(traced.weight[0][k]).epsilon(1e-4));
+    CHECK(rotated.transmission[k] == test::approx(traced.transmission[k]).epsilon(1e-4));
   }
 }
 
@@ -205,7 +206,7 @@ TEST_CASE("quarters of a patch are the patch") {
     }
     for (const auto& [ix, iy] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{0, 1}, std::pair{1, 1}}) {
       const Patch part = quarter(whole, ix, iy);
-      CHECK(part.flux_area_mm2 == doctest::Approx(0.25 * whole.flux_area_mm2));
+      CHECK(part.flux_area_mm2 == test::approx(0.25 * whole.flux_area_mm2));
       CHECK(part.origin_px.x == whole.origin_px.x);
       for (const Vec2 uv : {Vec2{-1, -1}, Vec2{0.3, -0.7}, Vec2{0.9, 0.4}, Vec2{1, 1}}) {
         const Vec2 in_whole{0.5 * (uv.x + (ix == 0 ? -1.0 : 1.0)), 0.5 * (uv.y + (iy == 0 ? -1.0 : 1.0))};
@@ -236,12 +237,12 @@ TEST_CASE("cells between rays that arrived, each a patch of straight lines") {
     return sum;
   };
   CHECK(patches_of_cells(ray_set, scene.light, frame).size() == 64);
-  CHECK(area_of() == doctest::Approx(whole));
+  CHECK(area_of() == test::approx(whole));
   // The corners of the last cell are the ray set's own rays.
   const Patch last = patches_of_cells(ray_set, scene.light, frame).back();
   const Vec2 corner = frame.pixel_from_sensor(scene.exact(ray_set.box.high).ray.sensor_mm);
-  CHECK(last.field(PatchLayout::kX)[3] + last.origin_px.x == doctest::Approx(corner.x).epsilon(1e-5));
-  CHECK(last.field(PatchLayout::kY)[3] + last.origin_px.y == doctest::Approx(corner.y).epsilon(1e-5));
+  CHECK(last.field(PatchLayout::kX)[3] + last.origin_px.x == test::approx(corner.x).epsilon(1e-5));
+  CHECK(last.field(PatchLayout::kY)[3] + last.origin_px.y == test::approx(corner.y).epsilon(1e-5));
 
   ray_set.relative_height[10] = INFINITY;  // row 1, column 1: four cells
   CHECK(patches_of_cells(ray_set, scene.light, frame).size() == 60);

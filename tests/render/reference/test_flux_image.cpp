@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "render/reference/flux_image.h"
+#include "support/approx.h"
 
 using contrejour::Vec2;
 using contrejour::reference::FluxImage;
@@ -30,10 +31,10 @@ TEST_CASE("every pixel gets the fraction of the polygon it covers") {
   const std::array<Vec2, 4> box{Vec2{0.5, 1.0}, Vec2{2.5, 1.0}, Vec2{2.5, 2.0}, Vec2{0.5, 2.0}};
   image.add_polygon(box, 8.0);
   const auto p = pixels_of(image, 4, 4);
-  CHECK(p[4] == doctest::Approx(2.0));
-  CHECK(p[5] == doctest::Approx(4.0));
-  CHECK(p[6] == doctest::Approx(2.0));
-  CHECK(sum(p) == doctest::Approx(8.0));
+  CHECK(p[4] == contrejour::test::approx(2.0));
+  CHECK(p[5] == contrejour::test::approx(4.0));
+  CHECK(p[6] == contrejour::test::approx(2.0));
+  CHECK(sum(p) == contrejour::test::approx(8.0));
 }
 
 TEST_CASE("a triangle's coverage agrees with counting sub-pixel points") {
@@ -53,7 +54,7 @@ TEST_CASE("a triangle's coverage agrees with counting sub-pixel points") {
     }
   }
   const double total = sum(counted);
-  for (std::size_t k = 0; k < 36; ++k) CHECK(p[k] == doctest::Approx(counted[k] / total).epsilon(0.02).scale(0.01));
+  for (std::size_t k = 0; k < 36; ++k) CHECK(p[k] == contrejour::test::approx(counted[k] / total).epsilon(0.02).scale(0.01));
 }
 
 TEST_CASE("no flux is lost inside the image, whatever the polygon's shape, size or orientation") {
@@ -69,7 +70,7 @@ TEST_CASE("no flux is lost inside the image, whatever the polygon's shape, size 
     if (trial % 5 == 0) t[2] = t[0] + (t[1] - t[0]) * 0.3;  // without area
     FluxImage image(32, 33);
     image.add_polygon(t, 1.0);
-    CHECK(sum(pixels_of(image, 32, 33)) == doctest::Approx(1.0).epsilon(1e-6));
+    CHECK(sum(pixels_of(image, 32, 33)) == contrejour::test::approx(1.0).epsilon(1e-6));
   }
 }
 
@@ -79,5 +80,5 @@ TEST_CASE("what falls outside is lost, and only that") {
   image.add_polygon(box, 1.0);
   const std::array<Vec2, 3> far{Vec2{1e9, 1e9}, Vec2{2e9, 1e9}, Vec2{1e9, 3e9}};
   image.add_polygon(far, 1.0);
-  CHECK(sum(pixels_of(image, 10, 10)) == doctest::Approx(0.5));
+  CHECK(sum(pixels_of(image, 10, 10)) == contrejour::test::approx(0.5));
 }

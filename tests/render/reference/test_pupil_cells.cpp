@@ -13,6 +13,7 @@
 #include "optics/trace/packet_trace.h"
 #include "render/reference/flux_image.h"
 #include "render/reference/pupil_cells.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -122,7 +123,7 @@ void check_every_ghost(const LensState& lens, Vec2 light_uv, std::size_t stride,
     all_found += found;
     all_counted += counted;
   }
-  CHECK(all_found / all_counted == doctest::Approx(1.0).epsilon(5e-3));
+  CHECK(all_found / all_counted == test::approx(1.0).epsilon(5e-3));
 }
 
 }  // namespace
@@ -145,7 +146,7 @@ TEST_CASE("a pupil far smaller than a root cell is found wherever in it it lies"
       const Vec3 direction = normalized(Vec3{0.004 * (k % 8), 0.004 * (k / 8), 1.0});
       const EntranceWindow window = entrance_window(lens, direction);
       const double found = flux_in_cells(path, lens.iris, direction, window, {4, 4, 0, 0, 4, 4, 10.0});
-      CHECK(found / (area * (1 - r) * r * r * (1 - r) * direction.z) == doctest::Approx(1.0).epsilon(5e-3));
+      CHECK(found / (area * (1 - r) * r * r * (1 - r) * direction.z) == test::approx(1.0).epsilon(5e-3));
     }
   }
 }

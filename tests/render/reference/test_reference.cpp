@@ -7,6 +7,7 @@
 
 #include "contrejour/expert/metrics.h"
 #include "render/reference/reference.h"
+#include "support/approx.h"
 #include "support/planned.h"
 #include "support/scenes.h"
 
@@ -51,8 +52,8 @@ TEST_CASE("a ghost with an affine map is uniform with the closed form's level") 
     }
   }
   CHECK(high / low < 1.005);
-  CHECK(low / level == doctest::Approx(1.0).epsilon(1e-3));
-  CHECK(sum(image) / 3.0 / (r * r) == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(low / level == test::approx(1.0).epsilon(1e-3));
+  CHECK(sum(image) / 3.0 / (r * r) == test::approx(1.0).epsilon(1e-3));
   CHECK(image.at(100, 30) == 0.0f);
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("doubling the density changes the picture by less than 55 dB [slow]") 
   settings.reference.density = 2.0;
   const Image twice = rendered(heliar, {&light, 1}, settings);
   CHECK(psnr_db(twice, once) > 55.0);
-  CHECK(sum(once) / sum(twice) == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(sum(once) / sum(twice) == test::approx(1.0).epsilon(2e-3));
 }
 
 TEST_CASE("the Heliar's flare at f/16 has the order of brightness that a first trial gave") {
@@ -93,8 +94,8 @@ TEST_CASE("a quarter turn of the light about the axis turns the flare [slow]") {
     }
   }
   const Vec2 landed = frame.uv_from_sensor(chief_ray_image_point(lens, rotated.direction, lens.design_wavelength_nm));
-  CHECK(landed.x == doctest::Approx(0.55).epsilon(1e-6));
-  CHECK(landed.y == doctest::Approx(0.8).epsilon(1e-6));
+  CHECK(landed.x == test::approx(0.55).epsilon(1e-6));
+  CHECK(landed.y == test::approx(0.8).epsilon(1e-6));
   CHECK(psnr_db(a, back) > 60.0);
 }
 
@@ -105,5 +106,5 @@ TEST_CASE("a ghost of less than a pixel keeps its flux") {
   Light light;
   light.direction = {0.0, 0.0, 1.0};
   const Image image = rendered(lens, {&light, 1}, green(frame));
-  CHECK(sum(image) / 3.0 / (0.04 * 0.04) == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(sum(image) / 3.0 / (0.04 * 0.04) == test::approx(1.0).epsilon(2e-3));
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -18,8 +19,8 @@ TEST_CASE("the picture is upright: a light up and to the right lands up and to t
   CHECK(pixel.x > 150.0);
   CHECK(pixel.y < 100.0);
   const LightAngles back = angles_from_direction(up_right);
-  CHECK(back.azimuth_rad == doctest::Approx(0.2));
-  CHECK(back.elevation_rad == doctest::Approx(0.1));
+  CHECK(back.azimuth_rad == test::approx(0.2));
+  CHECK(back.elevation_rad == test::approx(0.1));
 }
 
 TEST_CASE("pixel and sensor coordinates are each other's inverse, in windows of the frame too") {
@@ -27,11 +28,11 @@ TEST_CASE("pixel and sensor coordinates are each other's inverse, in windows of 
   const Frame window{40, 30, 100, 50, 300, 200, 0.12};
   for (const Vec2 p : {Vec2{0, 0}, Vec2{17.25, 3.5}, Vec2{300, 200}}) {
     const Vec2 back = whole.pixel_from_sensor(whole.sensor_from_pixel(p));
-    CHECK(back.x == doctest::Approx(p.x));
-    CHECK(back.y == doctest::Approx(p.y));
+    CHECK(back.x == test::approx(p.x));
+    CHECK(back.y == test::approx(p.y));
     const Vec2 in_window = window.pixel_from_sensor(whole.sensor_from_pixel(p));
-    CHECK(in_window.x == doctest::Approx(p.x - 100));
-    CHECK(in_window.y == doctest::Approx(p.y - 50));
+    CHECK(in_window.x == test::approx(p.x - 100));
+    CHECK(in_window.y == test::approx(p.y - 50));
   }
   CHECK(whole.sensor_from_uv({0.5, 0.5}) == Vec2{0, 0});
   CHECK(whole.sensor_from_uv({0, 0}).x > 0.0);  // top left of the picture: right and up on the inverted sensor
@@ -69,6 +70,6 @@ TEST_CASE("a frame of other proportions than the sensor is cut from it") {
   LensState lens = test::plate();
   lens.sensor_width_mm = 36.0;
   lens.sensor_height_mm = 24.0;
-  CHECK(frame_on_sensor(lens, 1920, 1080).pixel_pitch_mm == doctest::Approx(36.0 / 1920));
-  CHECK(frame_on_sensor(lens, 1080, 1920).pixel_pitch_mm == doctest::Approx(24.0 / 1920));
+  CHECK(frame_on_sensor(lens, 1920, 1080).pixel_pitch_mm == test::approx(36.0 / 1920));
+  CHECK(frame_on_sensor(lens, 1080, 1920).pixel_pitch_mm == test::approx(24.0 / 1920));
 }

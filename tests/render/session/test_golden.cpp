@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "contrejour/expert/metrics.h"
+#include "support/approx.h"
 #include "support/kept_picture.h"
 #include "support/scenes.h"
 
@@ -51,6 +52,6 @@ TEST_CASE("golden pictures [slow]") {
     const auto difference = compare(kept, image);
     REQUIRE(difference.has_value());
     CHECK(difference->psnr_db.value_or(1000.0) > kAlike_db);
-    for (const double ratio : difference->flux_ratio) CHECK(ratio == doctest::Approx(1.0).epsilon(2e-3));
+    for (const double ratio : difference->flux_ratio) CHECK(ratio == test::approx(1.0).epsilon(2e-3));
   }
 }

@@ -9,6 +9,7 @@
 #include "contrejour/ghost_figures.h"
 #include "render/planning/frame_plan.h"
 #include "render/radiometry/direct_light.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -47,8 +48,8 @@ TEST_CASE("a lens without colour keeps the light's colour for any number of wave
       for (std::size_t c = 0; c < 3; ++c) sum[c] += pass.gain[c];
     }
     const double times = sum[0] / light.value[0];
-    CHECK(times * flux == doctest::Approx(1.0).epsilon(5e-4));
-    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == doctest::Approx(times * light.value[c]).epsilon(1e-9));
+    CHECK(times * flux == test::approx(1.0).epsilon(5e-4));
+    for (std::size_t c = 0; c < 3; ++c) CHECK(sum[c] == test::approx(times * light.value[c]).epsilon(1e-9));
   }
 }
 
@@ -100,11 +101,11 @@ TEST_CASE("direct fluxes of many wavelengths, few of them measured, are those me
     REQUIRE(measure_fluxes(lens, tables, kept, {&metered, 1}, {}));
     REQUIRE(metered.flux_mm2.size() == 16);
     for (std::size_t k = 0; k < bands.size(); ++k)
-      CHECK(metered.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(2e-4));
+      CHECK(metered.flux_mm2[k] == test::approx(measured(bands[k])).epsilon(2e-4));
     // With few bands all are measured, in the pupil of the middle one.
     MeteredLight few{source, std::span(bands).first(3)};
     REQUIRE(measure_fluxes(lens, tables, kept, {&few, 1}, {}));
-    for (std::size_t k = 0; k < 3; ++k) CHECK(few.flux_mm2[k] == doctest::Approx(measured(bands[k])).epsilon(1e-4));
+    for (std::size_t k = 0; k < 3; ++k) CHECK(few.flux_mm2[k] == test::approx(measured(bands[k])).epsilon(1e-4));
   }
 }
 
@@ -147,8 +148,8 @@ TEST_CASE("the flare does not jump when its light leaves the frame") {
     const Light light = test::light_at(lens, settings.frame, {u, 0.5});
     return plan(lens, {&light, 1}, settings)->lights[0].passes[0].gain[1];
   };
-  CHECK(gain_at(0.9999) == doctest::Approx(gain_at(1.0001)).epsilon(1e-3));
-  CHECK(gain_at(1.0001) == doctest::Approx(gain_at(3.0)).epsilon(1e-3));
+  CHECK(gain_at(0.9999) == test::approx(gain_at(1.0001)).epsilon(1e-3));
+  CHECK(gain_at(1.0001) == test::approx(gain_at(3.0)).epsilon(1e-3));
   CHECK(std::isfinite(gain_at(50.0)));
 }
 
@@ -231,7 +232,7 @@ TEST_CASE("selections by flux keep the light of every channel, of the lights' ow
       // Reddish ghosts are negative in blue: in sums they cancel, but what is left out counts in full.
       CHECK(planned->skipped_flux.value() >= 0.95 * max_lost);
       if (std::holds_alternative<IlluminantD65>(spectrum))
-        CHECK(planned->skipped_flux.value() == doctest::Approx(max_lost).epsilon(0.05).scale(0.01));
+        CHECK(planned->skipped_flux.value() == test::approx(max_lost).epsilon(0.05).scale(0.01));
     }
   }
 }
@@ -289,7 +290,7 @@ TEST_CASE("selections by flux weigh what lands inside the frame, as drawn") {
       const Flare some = drawn(selection);
       const double lost = max_lost(sum_of(some.image), all);
       CAPTURE(lost);
-      CHECK(some.statistics.ghosts_skipped_flux.value() == doctest::Approx(lost).epsilon(0.05).scale(0.03));
+      CHECK(some.statistics.ghosts_skipped_flux.value() == test::approx(lost).epsilon(0.05).scale(0.03));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <half.h>
 
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 
@@ -145,7 +146,7 @@ TEST_CASE("a draft comes first, near to the frame, and leaves no trace") {
   REQUIRE(alone.has_value());
   CHECK(image.pixels == alone->image.pixels);
   REQUIRE(draft.pixels.size() == image.pixels.size());
-  CHECK(test::sum(draft) == doctest::Approx(test::sum(image)).epsilon(0.05));
+  CHECK(test::sum(draft) == test::approx(test::sum(image)).epsilon(0.05));
   CHECK(draft.pixels != image.pixels);
 }
 

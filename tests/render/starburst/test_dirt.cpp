@@ -8,6 +8,7 @@
 
 #include "contrejour/expert/ghost.h"
 #include "contrejour/expert/lens_starburst.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/scenes.h"
 
@@ -103,12 +104,12 @@ TEST_CASE("the exit pupil is dark where traced rays meet dirt, on the stop and o
       CHECK(dark > 20);
       CHECK(wrong == 0);
       CHECK(passed / all < 0.97);
-      CHECK(pupil->open_fraction == doctest::Approx(passed / all).epsilon(0.01));
+      CHECK(pupil->open_fraction == test::approx(passed / all).epsilon(0.01));
       LensSettings clean_settings = with_dirt(plane);
       clean_settings.dirt = {};
       const LensState clean = test::bundled("planar-50", clean_settings);
       CHECK(pupil->flux_mm2 / pupil->open_fraction ==
-            doctest::Approx(exit_pupil(clean, direction, lens.design_wavelength_nm)->flux_mm2).epsilon(1e-9));
+            test::approx(exit_pupil(clean, direction, lens.design_wavelength_nm)->flux_mm2).epsilon(1e-9));
     }
   }
 }
@@ -121,7 +122,7 @@ TEST_CASE("a dirty lens's starburst sums to what dirt lets through") {
     Image image(300, 300);  // of 1 mm pixels: the whole plane
     add_starburst(image, lens_starburst(lens, Vec3{0.0, 0.0, 1.0}, bands, {1.0, 210.0}).value(), {150.0, 150.0},
                   {1.0, 1.0, 1.0});
-    CHECK(test::sum(image) / 3.0 == doctest::Approx(pupil->open_fraction).epsilon(2e-3));
+    CHECK(test::sum(image) / 3.0 == test::approx(pupil->open_fraction).epsilon(2e-3));
   }
 }
 
@@ -156,8 +157,8 @@ TEST_CASE("a picture as dirt: black lets nothing through, white all, grey its tr
   const auto pupil_of = [](const LensState& lens) {
     return exit_pupil(lens, Vec3{0.0, 0.0, 1.0}, lens.design_wavelength_nm).value();
   };
-  CHECK(pupil_of(picture({1.0F}, 1, 1)).open_fraction == doctest::Approx(1.0));
-  CHECK(pupil_of(picture(std::vector<float>(4, 0.25F), 2, 2)).open_fraction == doctest::Approx(0.25));
+  CHECK(pupil_of(picture({1.0F}, 1, 1)).open_fraction == test::approx(1.0));
+  CHECK(pupil_of(picture(std::vector<float>(4, 0.25F), 2, 2)).open_fraction == test::approx(0.25));
   const LensState black = picture(std::vector<float>(4, 0.0F), 2, 2);
   CHECK(pupil_of(black).open_fraction == 0.0);
   CHECK(test::sum(starburst(black, {0.0, 0.0, 1.0}, 32)) == 0.0);
@@ -165,7 +166,7 @@ TEST_CASE("a picture as dirt: black lets nothing through, white all, grey its tr
   std::vector<float> half(64 * 64, 1.0F);
   std::fill(half.begin(), half.begin() + 32 * 64, 0.0F);
   const ExitPupil below = pupil_of(picture(half, 64, 64));
-  CHECK(below.open_fraction == doctest::Approx(0.5).epsilon(0.03));
+  CHECK(below.open_fraction == test::approx(0.5).epsilon(0.03));
   double top = 0.0, bottom = 0.0;
   const auto side = static_cast<std::size_t>(below.mask.grid.side);
   for (std::size_t k = 0; k < side * side; ++k) (k / side < side / 2 ? top : bottom) += below.mask.amplitude[k];

@@ -11,6 +11,7 @@
 #include "contrejour/expert/first_order.h"
 #include "contrejour/expert/ghost.h"
 #include "contrejour/expert/lens_starburst.h"
+#include "support/approx.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 
@@ -49,8 +50,8 @@ TEST_CASE("on the axis the exit pupil is first-order optics'") {
     REQUIRE(pupil.has_value());
     // As seen from 1 mm instead of its real distance.
     const double radius = 0.5 * first.exit_pupil_diameter_mm / std::abs(first.exit_pupil_position_mm);
-    CHECK(length(pupil->outline.value().x_mm) / radius == doctest::Approx(1.0).epsilon(2e-3));
-    CHECK(length(pupil->outline.value().y_mm) / radius == doctest::Approx(1.0).epsilon(2e-3));
+    CHECK(length(pupil->outline.value().x_mm) / radius == test::approx(1.0).epsilon(2e-3));
+    CHECK(length(pupil->outline.value().y_mm) / radius == test::approx(1.0).epsilon(2e-3));
     CHECK(length(pupil->middle) < 1e-2 * radius);
   }
 }
@@ -78,7 +79,7 @@ TEST_CASE("borders are where traced rays are blocked, and the flux is the direct
     REQUIRE(pupil.has_value());
     REQUIRE(pupil->radius > 0.0);
     CHECK(pupil->fit_error < 1e-3);
-    CHECK(pupil->flux_mm2 / GhostMeter(lens, lambda_nm).direct_flux(direction) == doctest::Approx(1.0).epsilon(2e-3));
+    CHECK(pupil->flux_mm2 / GhostMeter(lens, lambda_nm).direct_flux(direction) == test::approx(1.0).epsilon(2e-3));
 
     // Compares each traced ray with the sample it falls on, unless a border is closer than a sample.
     const OpticalPath path = direct_path(lens, lambda_nm);
@@ -126,13 +127,13 @@ TEST_CASE(
       const double flux_mm2 = meter.direct_flux(direction);
       if (flux_mm2 <= 0.0) continue;
       REQUIRE(pupil->radius > 0.0);
-      CHECK(pupil->flux_mm2 / flux_mm2 == doctest::Approx(1.0).epsilon(5e-3));
+      CHECK(pupil->flux_mm2 / flux_mm2 == test::approx(1.0).epsilon(5e-3));
       CHECK(pupil->fit_error < 4e-3);
       double open = 0.0;
       for (const float a : pupil->mask.amplitude) open += a > 0.0F ? 1.0 : 0.0;
       open *= pupil->mask.grid.pitch_mm * pupil->mask.grid.pitch_mm;
       without_outline += !pupil->outline.has_value();
-      if (pupil->outline) CHECK(pupil->outline->area_mm2() / open == doctest::Approx(1.0).epsilon(0.05));
+      if (pupil->outline) CHECK(pupil->outline->area_mm2() / open == test::approx(1.0).epsilon(0.05));
     }
   }
   CHECK(without_outline <= 1);

@@ -12,6 +12,7 @@
 #include "base/scalar.h"
 #include "contrejour/expert/first_order.h"
 #include "contrejour/expert/lens_starburst.h"
+#include "support/approx.h"
 #include "support/flares.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
@@ -93,7 +94,7 @@ TEST_CASE("a light's starburst sums to its value, less what falls outside the fr
     const double rho = 250.0 * settings.frame.pixel_pitch_mm / (550e-6 * f_number) * kPi / std::sqrt(8.0);
     const double outside = opening.perimeter() / opening.area() / (kPi * kPi * rho);
     for (std::size_t c = 0; c < 3; ++c)
-      CHECK(flux_of(image, c) / light.value[c] + outside == doctest::Approx(1.0).epsilon(1e-3));
+      CHECK(flux_of(image, c) / light.value[c] + outside == test::approx(1.0).epsilon(1e-3));
   }
 }
 
@@ -106,9 +107,9 @@ TEST_CASE("through a real lens the first dark ring lies 1.22 lambda N out, and h
     settings.lambda_nm = {550.0};
     const FirstOrder first = first_order(lens, 550.0);
     zero.push_back(first_zero(drawn(lens, Light{}, settings)));
-    CHECK(zero.back() * pitch_mm / (1.2197 * 550e-6 * first.f_number) == doctest::Approx(1.0).epsilon(0.02));
+    CHECK(zero.back() * pitch_mm / (1.2197 * 550e-6 * first.f_number) == test::approx(1.0).epsilon(0.02));
   }
-  CHECK(zero[0] / zero[1] == doctest::Approx(2.0).epsilon(0.02));
+  CHECK(zero[0] / zero[1] == test::approx(2.0).epsilon(0.02));
 }
 
 // An opening of outer radius 1 and inner radius e is dark where J1(x) = e J1(e x) (Born and Wolf, Principles of Optics,
@@ -127,14 +128,14 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
   settings.lambda_nm = {550.0};
   const Image image = drawn(lens, Light{}, settings);
   const double expected_mm = low / kPi * 550e-6 * first_order(lens, 550.0).f_number;
-  CHECK(first_zero(image) * kPitch_mm / expected_mm == doctest::Approx(1.0).epsilon(0.02));
+  CHECK(first_zero(image) * kPitch_mm / expected_mm == test::approx(1.0).epsilon(0.02));
 
   test::Settings whole = starburst_alone(frame_on_sensor(lens, 500, 500));
   whole.lambda_nm = {550.0};
   const double rho = 250.0 * whole.frame.pixel_pitch_mm / (550e-6 * 16.0) * kPi / std::sqrt(8.0);
   const double outside = 2.0 / (1.0 - kObscured) / (kPi * kPi * rho);  // perimeter over area
   const Image far = drawn(lens, Light{}, whole);
-  CHECK(flux_of(far, 1) + outside == doctest::Approx(1.0).epsilon(2e-3));
+  CHECK(flux_of(far, 1) + outside == test::approx(1.0).epsilon(2e-3));
   // Far out (2 J1(x) / x)^2 is 4 / (pi x^3) in the mean; those of both edges are added, as their fringes are too fine
   // to be resolved.
   const double lambda_n = 550e-6 * first_order(lens, 550.0).f_number, open = 1.0 - kObscured * kObscured;
@@ -144,7 +145,7 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
     const double level =
         0.25 * kPi * open / (lambda_n * lambda_n) * 4.0 / (kPi * x * x * x) * (1.0 + kObscured) / (open * open);
     CHECK(far_profile[bin] / (level * whole.frame.pixel_pitch_mm * whole.frame.pixel_pitch_mm) ==
-          doctest::Approx(1.0).epsilon(0.03));
+          test::approx(1.0).epsilon(0.03));
   }
 
   const std::vector<double> profile = radial_profile(image);
@@ -156,7 +157,7 @@ TEST_CASE("a stop with a dark middle has narrower rings, and the flux that is le
     return a * a;
   };
   const double ring = 4.9;
-  CHECK(at(ring) / profile[0] == doctest::Approx(closed(ring)).epsilon(0.08));
+  CHECK(at(ring) / profile[0] == test::approx(closed(ring)).epsilon(0.08));
 }
 
 // Two slits whose wave amplitudes are 1 and a beat with the contrast 2 a / (1 + a^2) (Young; Born & Wolf 7.3.1).
@@ -177,7 +178,7 @@ TEST_CASE("half-tones of an iris's picture dim the wave: fringes of a bright and
     const Image image = drawn(lens, Light{}, settings);
     const double bright = image.at(100, 0, 1), dark = 0.5 * (image.at(90, 0, 1) + image.at(110, 0, 1));
     const double amplitude = std::sqrt(grey);
-    CHECK((bright - dark) / (bright + dark) == doctest::Approx(2.0 * amplitude / (1.0 + grey)).epsilon(0.02));
+    CHECK((bright - dark) / (bright + dark) == test::approx(2.0 * amplitude / (1.0 + grey)).epsilon(0.02));
   }
 }
 
@@ -208,10 +209,9 @@ TEST_CASE("curved blades' fans follow one another without dark lines, the middle
   };
   CHECK(darkest(exact) < 0.6);
   CHECK(darkest(usual) > 0.75);
-  for (std::size_t c = 0; c < 3; ++c)
-    CHECK(flux_of(usual, c) / flux_of(exact, c) == doctest::Approx(1.0).epsilon(1e-3));
+  for (std::size_t c = 0; c < 3; ++c) CHECK(flux_of(usual, c) / flux_of(exact, c) == test::approx(1.0).epsilon(1e-3));
   for (int y = 296; y < 304; ++y)
-    for (int x = 296; x < 304; ++x) CHECK(usual.at(x, y, 1) == doctest::Approx(exact.at(x, y, 1)).epsilon(1e-3));
+    for (int x = 296; x < 304; ++x) CHECK(usual.at(x, y, 1) == test::approx(exact.at(x, y, 1)).epsilon(1e-3));
 }
 
 TEST_CASE("upright: spikes stand across the blades' edges as the photographer sees the iris") {
@@ -355,7 +355,7 @@ TEST_CASE("the same bits for any number of threads; many lights share starbursts
     const Image own = drawn(lens, light, settings);
     for (std::size_t k = 0; k < own.pixels.size(); ++k) apart.pixels[k] += own.pixels[k];
   }
-  for (std::size_t c = 0; c < 3; ++c) CHECK(flux_of(one, c) / flux_of(apart, c) == doctest::Approx(1.0).epsilon(2e-3));
+  for (std::size_t c = 0; c < 3; ++c) CHECK(flux_of(one, c) / flux_of(apart, c) == test::approx(1.0).epsilon(2e-3));
   double error = 0.0;
   for (std::size_t k = 0; k < one.pixels.size(); ++k) error += std::abs(one.pixels[k] - apart.pixels[k]);
   CHECK(error / test::sum(apart) < 0.02);
@@ -374,7 +374,7 @@ TEST_CASE("a light that leaves the frame, and then the lens, takes its starburst
   const auto beside_centre = [&](double u) {
     return drawn(lens, test::light_at(lens, settings.frame, {u, 0.5}), settings).at(80, 33, 1);
   };
-  CHECK(beside_centre(1.0001) / beside_centre(0.9999) == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(beside_centre(1.0001) / beside_centre(0.9999) == test::approx(1.0).epsilon(0.01));
   Light beside;
   beside.direction = direction_from_angles(1.5, 0.2);
   CHECK(test::sum(drawn(lens, beside, settings)) == 0.0);
@@ -387,7 +387,7 @@ TEST_CASE("frames of one pixel, pixels of a nanometre and of a metre: finite, an
       test::Settings settings = starburst_alone({side, side, 0, 0, side, side, pitch_mm});
       settings.glare.fraction = 0.1;
       const Image image = drawn(lens, Light{}, settings);
-      if (pitch_mm > 1.0) CHECK(flux_of(image, 1) == doctest::Approx(1.0).epsilon(2e-3));
+      if (pitch_mm > 1.0) CHECK(flux_of(image, 1) == test::approx(1.0).epsilon(2e-3));
     }
   }
   const auto refused = [&](auto spoil) {
@@ -419,7 +419,7 @@ TEST_CASE("what is left out is left out, and no more") {
   const Image part = drawn(lens, light, settings);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 60; ++x)
-      CHECK(part.at(x, y, 1) == doctest::Approx((1.0F - left_out->at(x, y)) * whole.at(x, y, 1)).epsilon(1e-6));
+      CHECK(part.at(x, y, 1) == test::approx((1.0F - left_out->at(x, y)) * whole.at(x, y, 1)).epsilon(1e-6));
   CHECK(part.at(30, 20, 1) == 0.0F);
 }
 
@@ -445,13 +445,13 @@ TEST_CASE(
         settings.glare.fraction = fraction;
         const Image image = drawn(lens, light, settings);
         for (std::size_t c = 0; c < 3; ++c)
-          CHECK(flux_of(image, c) == doctest::Approx(light.value[c] * open).epsilon(2e-3));
+          CHECK(flux_of(image, c) == test::approx(light.value[c] * open).epsilon(2e-3));
       }
     }
     settings.starburst.on = false;
     settings.glare.fraction = 0.1;
     light.radius_rad = 0.0;
-    CHECK(flux_of(drawn(lens, light, settings), 0) == doctest::Approx(30.0 * open).epsilon(2e-3));
+    CHECK(flux_of(drawn(lens, light, settings), 0) == test::approx(30.0 * open).epsilon(2e-3));
   }
 }
 
@@ -470,7 +470,7 @@ TEST_CASE("glare has the fraction and the width that it says") {
         for (int x = 0; x < 401; ++x)
           if (std::hypot(x - 200, y - 200) < radius) within += image.at(x, y, 1);
       const double expected = 0.2 * (1.0 - 1.0 / std::sqrt(1.0 + radius * radius / (r0 * r0)));
-      CHECK(within / expected == doctest::Approx(1.0).epsilon(0.01));
+      CHECK(within / expected == test::approx(1.0).epsilon(0.01));
     }
   }
 }

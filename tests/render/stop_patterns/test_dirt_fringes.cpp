@@ -9,6 +9,7 @@
 #include "base/scalar.h"
 #include "diffraction/straight_edge.h"
 #include "render/stop_patterns/dirt_diffraction.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using stop_patterns::DirtDiffraction;
@@ -124,7 +125,7 @@ TEST_CASE("each shape takes as much light as its sharp shadow, near or far, weak
     for (int k = 0; k < kSide * kSide; ++k)
       sum += plane.level() *
              plane.transmission({(k % kSide + 0.5) * 10.0 / kSide - 5.0, (k / kSide + 0.5) * 10.0 / kSide - 5.0}, 0.0);
-    CHECK(100.0 * (1.0 - sum / (kSide * kSide)) == doctest::Approx(covered).epsilon(0.06));
+    CHECK(100.0 * (1.0 - sum / (kSide * kSide)) == test::approx(covered).epsilon(0.06));
   }
 }
 
@@ -140,7 +141,7 @@ TEST_CASE("a place that is said to be clean is") {
     ++clean;
     for (int j = 0; j < 16; ++j)
       CHECK(plane.transmission(at + Vec2{0.1 * std::cos(0.4 * j), 0.1 * std::sin(0.4 * j)}, 0.0) ==
-            doctest::Approx(1.0).epsilon(0.004));
+            test::approx(1.0).epsilon(0.004));
   }
   CHECK(clean > 100);
 }

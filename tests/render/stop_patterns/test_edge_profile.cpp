@@ -5,30 +5,31 @@
 #include <doctest/doctest.h>
 
 #include "render/stop_patterns/edge_profile.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::stop_patterns;
 
 TEST_CASE("one wavelength: a quarter at the edge, 1.370 at 1.2172, 0.778 at 1.8725") {
   const EdgeProfile edge(0.0);
-  CHECK(edge.at(0.0, 0.0) == doctest::Approx(0.25).epsilon(2e-3));
+  CHECK(edge.at(0.0, 0.0) == test::approx(0.25).epsilon(2e-3));
   double best = 0.0, best_t = 0.0, smallest = 2.0, min_t = 0.0;
   for (double t = 0.0; t < 2.3; t += 1e-3) {
     const double v = edge.at(t, 0.0);
     if (v > best) best = v, best_t = t;
     if (t > 1.3 && v < smallest) smallest = v, min_t = t;
   }
-  CHECK(best == doctest::Approx(1.370).epsilon(2e-3));
-  CHECK(best_t == doctest::Approx(1.2172).epsilon(0.01));
-  CHECK(smallest == doctest::Approx(0.778).epsilon(3e-3));
-  CHECK(min_t == doctest::Approx(1.8725).epsilon(0.01));
-  CHECK(edge.at(-2.0, 0.0) == doctest::Approx(0.0120).epsilon(0.05));  // 1 / (2 pi^2 t^2), nearly
+  CHECK(best == test::approx(1.370).epsilon(2e-3));
+  CHECK(best_t == test::approx(1.2172).epsilon(0.01));
+  CHECK(smallest == test::approx(0.778).epsilon(3e-3));
+  CHECK(min_t == test::approx(1.8725).epsilon(0.01));
+  CHECK(edge.at(-2.0, 0.0) == test::approx(0.0120).epsilon(0.05));  // 1 / (2 pi^2 t^2), nearly
 }
 
 TEST_CASE("an edge takes no light: as much beyond it as is missing within") {
   for (const double spread : {0.0, 0.02, 0.1, 0.4}) {
     const EdgeProfile edge(spread);
-    CHECK(200.0 * edge.at(0.0, 200.0) == doctest::Approx(100.0).epsilon(1e-4));
+    CHECK(200.0 * edge.at(0.0, 200.0) == test::approx(100.0).epsilon(1e-4));
   }
 }
 
@@ -38,7 +39,7 @@ TEST_CASE("means over a width are means") {
     for (const double width : {0.003, 0.05, 0.7, 5.0}) {
       double sum = 0.0;
       for (int k = 0; k < 2000; ++k) sum += edge.at(t + width * ((k + 0.5) / 2000 - 0.5), 0.0) / 2000;
-      CHECK(edge.at(t, width) == doctest::Approx(sum).epsilon(1e-3).scale(1.0));
+      CHECK(edge.at(t, width) == test::approx(sum).epsilon(1e-3).scale(1.0));
     }
   }
   CHECK(edge.at(-100.0, 1.0) == 0.0);
@@ -70,7 +71,7 @@ TEST_CASE("a range leaves out dim ripples only, and says how much they are") {
       if (t > range.level + 0.01) CHECK(std::abs(v - 1.0) <= ripple);
     }
     CHECK(std::abs(edge.at(range.level - 0.02, 0.0) - 1.0) > 0.5 * ripple);  // and no more than necessary
-    CHECK(edge.squared_error(range) == doctest::Approx(left).epsilon(0.03));
+    CHECK(edge.squared_error(range) == test::approx(left).epsilon(0.03));
   }
   CHECK(edge.range_above(2.0).level == 0.0);
   CHECK(edge.range_above(2.0).dark == 0.0);

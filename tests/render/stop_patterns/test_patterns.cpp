@@ -10,6 +10,7 @@
 #include "render/polygons/packed_irradiance.h"
 #include "render/stop_patterns/band_texture.h"
 #include "render/stop_patterns/resampled.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::stop_patterns;
@@ -36,17 +37,17 @@ TEST_CASE("a texture's mean over a square, wide or not, and nothing outside") {
   for (int row = 0; row < 64; ++row)
     for (int column = 0; column < 64; ++column) ramp.push_back(static_cast<float>(column));
   const PatternTexture texture(64, 2.0, ramp);  // 16 a stop radius
-  for (const double width : {0.0, 0.1, 0.5}) CHECK(texture.at({0.3, -0.2}, width) == doctest::Approx(31.5 + 4.8));
+  for (const double width : {0.0, 0.1, 0.5}) CHECK(texture.at({0.3, -0.2}, width) == test::approx(31.5 + 4.8));
   CHECK(texture.at({2.1, 0.0}, 0.0) == 0.0);
-  CHECK(texture.flux() == doctest::Approx(31.5 * 16.0));
+  CHECK(texture.flux() == test::approx(31.5 * 16.0));
 }
 
 TEST_CASE("a pattern reaches as far as it is bright, and what lies beyond is known") {
   const PatternTexture discs = two_discs(2.0, 0.8, 1.5, 0.002F);
-  CHECK(discs.radius_above(0.01) == doctest::Approx(0.8).epsilon(0.06));
-  CHECK(discs.radius_above(0.001) == doctest::Approx(1.5).epsilon(0.03));
+  CHECK(discs.radius_above(0.01) == test::approx(0.8).epsilon(0.06));
+  CHECK(discs.radius_above(0.001) == test::approx(1.5).epsilon(0.03));
   const double area = std::numbers::pi * (1.5 * 1.5 - 0.8 * 0.8);
-  CHECK(discs.squared_beyond(0.85) == doctest::Approx(0.002 * 0.002 * area).epsilon(0.1));
+  CHECK(discs.squared_beyond(0.85) == test::approx(0.002 * 0.002 * area).epsilon(0.1));
   CHECK(discs.squared_beyond(1.6) == 0.0);
   // Light whose loss would matter is kept, however dim.
   CHECK(two_discs(2.0, 0.8, 1.5, 0.05F).radius_above(0.2) > 1.4);
@@ -72,16 +73,16 @@ TEST_CASE("lines about a pattern: all that is bright is within them, and little 
   const BoundingPolygon all = texture.bounding_polygon_above(0.01, 1.0),
                         bright = texture.bounding_polygon_above(0.2, 1.0);
   for (const auto& bounding_polygon : {all, bright}) {
-    CHECK(far(bounding_polygon, {1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
+    CHECK(far(bounding_polygon, {1.0, 0.0}) == test::approx(1.5).epsilon(0.1));
     CHECK(far(bounding_polygon, {0.0, 1.0}) < 0.7);
     for (const double y : {-0.38, 0.0, 0.38}) CHECK_FALSE(bounding_polygon.excludes({1.48, y}, 0.0));
   }
-  CHECK(far(all, {-1.0, 0.0}) == doctest::Approx(1.5).epsilon(0.1));
+  CHECK(far(all, {-1.0, 0.0}) == test::approx(1.5).epsilon(0.1));
   CHECK(far(bright, {-1.0, 0.0}) < 0.6);
   CHECK(texture.bounding_polygon_above(0.2, 1e-4).distance(12) > 1.4);  // light whose loss would matter is kept
   CHECK(bright.excludes({-1.3, 0.0}, 0.2));
   CHECK_FALSE(bright.excludes({-1.3, 0.0}, 1.4));
-  CHECK(texture.brightest_beyond(1.0) == doctest::Approx(1.0));
+  CHECK(texture.brightest_beyond(1.0) == test::approx(1.0));
   CHECK(texture.brightest_beyond(1.8) == 0.0);
   BoundingPolygon both = bright;
   both.include(Vec2{-1.9, 0.0});
@@ -147,10 +148,10 @@ TEST_CASE("a pattern of one wavelength is the texture's, coded") {
       const auto at = static_cast<std::size_t>((row + 1) * level.pitch() + column + 1);
       const double sample = static_cast<double>(ramp[static_cast<std::size_t>(96 * row + column)]);
       CHECK(static_cast<double>(PackedIrradiance::of_lowest(level.lowest).light(table.pairs[at].here)) ==
-            doctest::Approx(sample).epsilon(1.3e-4));
+            test::approx(sample).epsilon(1.3e-4));
     }
   CHECK(table.pairs.front().here == 0);
-  CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == doctest::Approx(0.02 * 93 * 93).epsilon(0.03));
+  CHECK(static_cast<double>(band.brightest({1.4, -1.4}, 0.01)) == test::approx(0.02 * 93 * 93).epsilon(0.03));
 }
 
 TEST_CASE("about a square so wide that it is all of a pattern, it is as bright as that is") {
@@ -164,7 +165,7 @@ TEST_CASE("about a square so wide that it is all of a pattern, it is as bright a
   const double mean = 64.0 / 256.0;  // over the middle one of 3 x 3
   for (const Vec2 point : {Vec2{-2.5, -0.5}, Vec2{0.8, -2.4}, Vec2{0.0, 0.0}, Vec2{9.0, 9.0}})
     for (const double distance : {2.1, 3.0, 20.0})
-      CHECK(pattern.brightest(point, distance) == doctest::Approx(mean).epsilon(1e-3));
+      CHECK(pattern.brightest(point, distance) == test::approx(mean).epsilon(1e-3));
   CHECK(pattern.brightest({-2.5, -0.5}, 0.2) < 1e-4);
   CHECK(pattern.brightest({0.1, 0.1}, 0.2) > 0.9);
 }
@@ -186,8 +187,8 @@ TEST_CASE("patterns side by side are each what they are alone") {
       const Vec2 p{(column + 0.5) / 16.0 - 3.0, 3.0 - (row + 0.5) / 16.0};
       const float* const at =
           &table.samples[static_cast<std::size_t>((row + 1) * level.pitch() + column + 1) * TextureTable::kStride];
-      CHECK(static_cast<double>(at[0]) == doctest::Approx(small.at(p, 0.0)).epsilon(1e-5).scale(1.0));
-      CHECK(static_cast<double>(at[1]) == doctest::Approx(large.at(p, 0.0)).epsilon(1e-5).scale(1.0));
+      CHECK(static_cast<double>(at[0]) == test::approx(small.at(p, 0.0)).epsilon(1e-5).scale(1.0));
+      CHECK(static_cast<double>(at[1]) == test::approx(large.at(p, 0.0)).epsilon(1e-5).scale(1.0));
       CHECK(at[2] == 0.0F);
     }
   }

@@ -8,6 +8,7 @@
 #include "render/session/render_frame.h"
 #include "render/stop_patterns/dirt_fringes.h"
 #include "render/stop_patterns/stop_patterns.h"
+#include "support/approx.h"
 #include "support/pictures.h"
 
 using namespace contrejour;
@@ -60,15 +61,15 @@ TEST_CASE("behind a long edge the first fringe is 1.370, where the Fresnel integ
     int best = 0;
     for (int x = 30; x < 90; ++x)
       if (image.at(x, 6) > image.at(best, 6)) best = x;
-    CHECK(image.at(best, 6) / level == doctest::Approx(1.370).epsilon(0.03));
+    CHECK(image.at(best, 6) / level == test::approx(1.370).epsilon(0.03));
     const double l = image.at(best - 1, 6), m = image.at(best, 6), r = image.at(best + 1, 6);
     const double position_px = settings.frame.origin_x - 300 + best + 0.5 + 0.5 * (l - r) / (l - 2.0 * m + r);
-    CHECK((edge_px - position_px) / fringe_unit_px == doctest::Approx(1.2172).epsilon(0.03));
+    CHECK((edge_px - position_px) / fringe_unit_px == test::approx(1.2172).epsilon(0.03));
     // A quarter of the level at the edge itself.
     const double at_edge = edge_px - (settings.frame.origin_x - 300) - 0.5;
     const int left = static_cast<int>(at_edge);
     const double value = std::lerp(image.at(left, 6), image.at(left + 1, 6), at_edge - left);
-    CHECK(value / level == doctest::Approx(0.25).epsilon(0.1));
+    CHECK(value / level == test::approx(0.25).epsilon(0.1));
   });
 }
 
@@ -84,7 +85,7 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
       if (bounds.traits.is_slow && f > 100.0) return;
       const double sharp = sum(image_of(bounds, lens, Light{}, settings));
       const double node = sum(image_of(bounds, lens, Light{}, ringing(settings)));
-      CHECK(node / sharp == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
+      CHECK(node / sharp == test::approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
     });
   }
 }
@@ -100,7 +101,7 @@ TEST_CASE("ghosts whose cells are larger than the iris have light nowhere else [
     settings.selection = SelectList{{ghost}};
     const Image sharp = image_of(bounds_of("adaptive"), lens, light, settings);
     const Image node = image_of(bounds_of("adaptive"), lens, light, ringing(settings));
-    CHECK(sum(node) / sum(sharp) == doctest::Approx(1.0).epsilon(0.03));
+    CHECK(sum(node) / sum(sharp) == test::approx(1.0).epsilon(0.03));
   }
 }
 
@@ -121,7 +122,7 @@ TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
     }
     CHECK(beyond / (sum(node) / 3.0) > 0.1);
     // 4 sin^2(pi F / 2) on the axis: 2 for F = 1.5 (Lommel).
-    CHECK(node.at(80, 80) / sharp.at(80, 80) == doctest::Approx(2.0).epsilon(0.12));
+    CHECK(node.at(80, 80) / sharp.at(80, 80) == test::approx(2.0).epsilon(0.12));
     CHECK(peak_of(node) < 2.6 * sharp.at(80, 80));
   });
 }
@@ -135,7 +136,7 @@ TEST_CASE("methods agree [slow]") {
       fine.set_error(1e-3);
       const Image image = image_of(bounds, lens, light, fine);
       CHECK(psnr_db(truth, image) >= (bounds.traits.integrates_pixels ? 42.0 : 28.0));
-      CHECK(sum(image) / sum(truth) == doctest::Approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.06));
+      CHECK(sum(image) / sum(truth) == test::approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.06));
     });
   };
   const Iris curved{5, 0.3, 0.4};
@@ -173,13 +174,13 @@ TEST_CASE("half-tones of a picture as the iris dim every point of a ghost, with 
       const Image bright = image_of(bounds, plate_of(radius_mm, plain), Light{}, settings);
       const Image dim = image_of(bounds, plate_of(radius_mm, toned), Light{}, settings);
       const double brightest = 0.6 + 0.4 * kOpen;  // of the picture, which counts as a transmittance of 1
-      CHECK(sum(dim) / sum(bright) == doctest::Approx(0.6 / brightest).epsilon(0.02));
+      CHECK(sum(dim) / sum(bright) == test::approx(0.6 / brightest).epsilon(0.02));
       // The mean of x over a half disc is 4 r / (3 pi).
       const double off = 0.4 * 4.0 * kOpen / (3.0 * std::numbers::pi);
       double left = 0.0, right = 0.0;
       for (int y = 0; y < dim.height; ++y)
         for (int x = 0; x < dim.width; ++x) (2 * x < dim.width ? left : right) += dim.at(x, y);
-      CHECK(std::min(left, right) / std::max(left, right) == doctest::Approx((0.6 - off) / (0.6 + off)).epsilon(0.03));
+      CHECK(std::min(left, right) / std::max(left, right) == test::approx((0.6 - off) / (0.6 + off)).epsilon(0.03));
     });
   }
 }
@@ -243,7 +244,7 @@ TEST_CASE("hullin's pattern keeps the light and is the same for all ghosts") {
     test::Settings sharp = settings;
     sharp.ringing.mode = RingingMode::None;
     const Image image = image_with(cache, method, lens, settings);
-    CHECK(sum(image) / sum(image_of(bounds_of(method), lens, Light{}, sharp)) == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(sum(image) / sum(image_of(bounds_of(method), lens, Light{}, sharp)) == test::approx(1.0).epsilon(0.01));
     CHECK(psnr_db(image_of(bounds_of(method), lens, Light{}, sharp), image) < 35.0);
   }
   CHECK(cache.find<stop_patterns::StopPatterns>()->count() == 1);

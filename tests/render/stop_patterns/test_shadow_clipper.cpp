@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "render/stop_patterns/shadow_clipper.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 
@@ -84,7 +85,7 @@ TEST_CASE("shadows take from a polygon what counting says, at every point, overl
             wrong += std::abs(left - open) > 1e-6 ? 1 : 0;
           }
         }
-        CHECK(drawn == doctest::Approx(counted).epsilon(5e-3));
+        CHECK(drawn == test::approx(counted).epsilon(5e-3));
         CHECK(wrong < inside / 200);  // only near outlines, which are polygons here
       }
     }
@@ -104,7 +105,7 @@ TEST_CASE("mean over an ellipse, clean points and what is near a box are those o
       ++count;
     }
   }
-  CHECK(field.mean_within({-2.8, -2.8}, {2.8, 2.8}) == doctest::Approx(open / count).epsilon(0.01));
+  CHECK(field.mean_within({-2.8, -2.8}, {2.8, 2.8}) == test::approx(open / count).epsilon(0.01));
   for (double x = -2.5; x < 2.5; x += 0.31) {
     for (double radius : {0.01, 0.1, 0.5}) {
       double nearest = 1e9;

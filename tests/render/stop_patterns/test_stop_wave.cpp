@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "render/stop_patterns/stop_wave.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace contrejour;
@@ -34,12 +35,12 @@ NearAxis traced(const OpticalPath& path, double height_mm, double slope) {
 TEST_CASE("a plate's ghost: the stop's light goes 1 + 3 * 2 / 1.5 + 7 mm on") {
   const LensState lens = plate();
   const auto wave = stop_patterns::stop_wave(ghost_path(lens, {2, 3}, 550.0));
-  CHECK(wave.fresnel_number == doctest::Approx(9.0 / (550e-6 * 12.0)).epsilon(1e-9));
-  CHECK(wave.footprint == doctest::Approx(1.0).epsilon(1e-9));
+  CHECK(wave.fresnel_number == test::approx(9.0 / (550e-6 * 12.0)).epsilon(1e-9));
+  CHECK(wave.footprint == test::approx(1.0).epsilon(1e-9));
   // A light at 100 mm spreads behind the stop, which is at the first surface: A + B c = 1 + 12 / 100.
   const auto near = stop_patterns::stop_wave(ghost_path(lens, {2, 3}, 550.0), 100.0);
-  CHECK(near.fresnel_number == doctest::Approx(1.12 * 9.0 / (550e-6 * 12.0)).epsilon(1e-9));
-  CHECK(near.footprint == doctest::Approx(1.12).epsilon(1e-9));
+  CHECK(near.fresnel_number == test::approx(1.12 * 9.0 / (550e-6 * 12.0)).epsilon(1e-9));
+  CHECK(near.footprint == test::approx(1.12).epsilon(1e-9));
 }
 
 TEST_CASE("lenses' ghosts: A, B and the wave at the stop from rays near the axis") {
@@ -60,9 +61,9 @@ TEST_CASE("lenses' ghosts: A, B and the wave at the stop from rays near the axis
       const double a = parallel.on_sensor / parallel.at_stop;
       const auto wave = stop_patterns::stop_wave(path);
       // The sensor's picture may be inverted relative to the stop's coordinates: only the size is compared.
-      CHECK(wave.footprint == doctest::Approx(std::abs(a)).epsilon(2e-4));
+      CHECK(wave.footprint == test::approx(std::abs(a)).epsilon(2e-4));
       const double expected = std::abs(a * lens.stop_radius_mm * lens.stop_radius_mm / (500e-6 * b));
-      CHECK(wave.fresnel_number == doctest::Approx(expected).epsilon(2e-4));
+      CHECK(wave.fresnel_number == test::approx(expected).epsilon(2e-4));
     }
   }
 }

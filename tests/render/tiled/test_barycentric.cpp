@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "render/tiled/barycentric-inl.h"
+#include "support/approx.h"
 
 namespace {
 
@@ -78,11 +79,11 @@ TEST_CASE("coordinates lie in 0..1, sum to one, and give a point back its own pl
     for (const Method& method : kMethods) {
       CAPTURE(method.name);
       const auto c = method.at(quad, p);
-      CHECK(c[0] + c[1] + c[2] + c[3] == doctest::Approx(1.0).epsilon(1e-12));
+      CHECK(c[0] + c[1] + c[2] + c[3] == contrejour::test::approx(1.0).epsilon(1e-12));
       for (const double w : c) CHECK(w >= -1e-12);
       if (!method.exact) continue;
-      CHECK(interpolated(c, quad.x) == doctest::Approx(p.x).epsilon(1e-9));
-      CHECK(interpolated(c, quad.y) == doctest::Approx(p.y).epsilon(1e-9));
+      CHECK(interpolated(c, quad.x) == contrejour::test::approx(p.x).epsilon(1e-9));
+      CHECK(interpolated(c, quad.y) == contrejour::test::approx(p.y).epsilon(1e-9));
     }
   }
 }
@@ -95,12 +96,12 @@ TEST_CASE("in a parallelogram all of them reproduce linear functions, and Wachsp
     for (const Method& method : kMethods) {
       CAPTURE(method.name);
       const auto c = method.at(quad, p);
-      CHECK(interpolated(c, quad.x) == doctest::Approx(p.x).epsilon(1e-9));
-      CHECK(interpolated(c, quad.y) == doctest::Approx(p.y).epsilon(1e-9));
+      CHECK(interpolated(c, quad.x) == contrejour::test::approx(p.x).epsilon(1e-9));
+      CHECK(interpolated(c, quad.y) == contrejour::test::approx(p.y).epsilon(1e-9));
     }
     const auto wachspress = kMethods[3].at(quad, p);
     const auto loop = kMethods[4].at(quad, p);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(wachspress[i] == doctest::Approx(loop[i]).epsilon(1e-12));
+    for (std::size_t i = 0; i < 4; ++i) CHECK(wachspress[i] == contrejour::test::approx(loop[i]).epsilon(1e-12));
   }
 }
 
@@ -110,10 +111,10 @@ TEST_CASE("at a corner and along an edge only the corners there count") {
     CAPTURE(method.name);
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
-      CHECK(method.at(quad, {quad.x[i], quad.y[i]})[i] == doctest::Approx(1.0));
+      CHECK(method.at(quad, {quad.x[i], quad.y[i]})[i] == contrejour::test::approx(1.0));
       const auto c = method.at(quad, {0.25 * quad.x[i] + 0.75 * quad.x[j], 0.25 * quad.y[i] + 0.75 * quad.y[j]});
-      CHECK(c[i] + c[j] == doctest::Approx(1.0).epsilon(1e-9));
-      if (method.exact) CHECK(c[j] == doctest::Approx(0.75).epsilon(1e-9));
+      CHECK(c[i] + c[j] == contrejour::test::approx(1.0).epsilon(1e-9));
+      if (method.exact) CHECK(c[j] == contrejour::test::approx(0.75).epsilon(1e-9));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "render/tiled/scene.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using tiled::Primitive;
@@ -79,7 +80,7 @@ TEST_CASE("merging keeps the flux and the count goes down with the threshold") {
       const auto merged = build(grid, frame, merging(4, threshold), &still_before);
       CHECK(still_before == before);
       CHECK(merged.primitives.size() <= last);
-      CHECK(total_flux(merged) / total_flux(whole) == doctest::Approx(1.0).epsilon(2e-5));
+      CHECK(total_flux(merged) / total_flux(whole) == test::approx(1.0).epsilon(2e-5));
       for (const Primitive& p : merged.primitives) CHECK(is_sound(p));
       last = merged.primitives.size();
     }
@@ -130,7 +131,7 @@ TEST_CASE("cells that are not convex become triangles with each its own flux") {
     triangles += (p.flags & tiled::kTriangle) != 0 ? 1 : 0;
   }
   CHECK(triangles >= 4);
-  CHECK(total_flux(folded) / total_flux(whole) == doctest::Approx(1.0).epsilon(1e-3));
+  CHECK(total_flux(folded) / total_flux(whole) == test::approx(1.0).epsilon(1e-3));
 }
 
 TEST_CASE("a ghost in a single point has flux but no pixel, and breaks nothing") {

@@ -12,6 +12,7 @@
 #include "render/tiled/scene.h"
 #include "render/tiled/tiled.h"
 #include "render/tiled/tiled_frame.h"
+#include "support/approx.h"
 #include "support/planned.h"
 
 using namespace contrejour;
@@ -115,7 +116,7 @@ TEST_CASE("streaks thinner than a pixel keep their light") {
     const auto truth = test::render_alone(render_bundle, settings.bundle, lens, {&light, 1}, settings);
     REQUIRE(truth.has_value());
     const double ratio = test::sum(tiled_of(lens, {&light, 1}, settings).image) / test::sum(truth->image);
-    CHECK(ratio == doctest::Approx(1.0).epsilon(0.25));
+    CHECK(ratio == test::approx(1.0).epsilon(0.25));
   }
 }
 
@@ -139,7 +140,7 @@ TEST_CASE("against bundle on the same grid, and merged against unmerged") {
     CHECK(psnr_db(truth->image, unmerged.image) > system.bundle_db);
     CHECK(psnr_db(unmerged.image, light_merge.image) > system.light_db);
     CHECK(psnr_db(unmerged.image, heavy_merge.image) > system.heavy_db);
-    CHECK(compare(truth->image, unmerged.image)->flux_ratio[0] == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(compare(truth->image, unmerged.image)->flux_ratio[0] == test::approx(1.0).epsilon(0.01));
     CHECK(light_merge.statistics.primitives_merged < unmerged.statistics.primitives_merged / 3);
     CHECK(heavy_merge.statistics.primitives_merged <= light_merge.statistics.primitives_merged);
   }
@@ -160,10 +161,10 @@ TEST_CASE("a large flat ghost has bundle's level, whatever the interpolation") {
     const Flare flare = tiled_of(lens, {&light, 1}, settings);
     for (int y = 28; y < 36; ++y) {
       for (int x = 28; x < 36; ++x) {
-        CHECK(flare.image.at(x, y) / truth->image.at(x, y) == doctest::Approx(1.0).epsilon(1e-3));
+        CHECK(flare.image.at(x, y) / truth->image.at(x, y) == test::approx(1.0).epsilon(1e-3));
       }
     }
-    CHECK(test::sum(flare.image) / test::sum(truth->image) == doctest::Approx(1.0).epsilon(5e-3));
+    CHECK(test::sum(flare.image) / test::sum(truth->image) == test::approx(1.0).epsilon(5e-3));
   }
 }
 
@@ -191,7 +192,7 @@ TEST_CASE("paths that cross the stop three times, and an iris of blades") {
   REQUIRE(truth.has_value());
   const Flare flare = tiled_of(lens, {&light, 1}, settings);
   CHECK(psnr_db(truth->image, flare.image) > 33.0);
-  CHECK(compare(truth->image, flare.image)->flux_ratio[0] == doctest::Approx(1.0).epsilon(0.03));
+  CHECK(compare(truth->image, flare.image)->flux_ratio[0] == test::approx(1.0).epsilon(0.03));
 }
 
 TEST_CASE("no light, no flare; one pixel, no trouble") {
@@ -213,8 +214,8 @@ TEST_CASE("a picture symmetric about the axis counts no pixel twice") {
     settings.tiled.merge_steps = steps;
     const Flare flare = tiled_of(lens, {&light, 1}, settings);
     for (int k = 12; k < 21; ++k) {
-      CHECK(flare.image.at(k, 16) / flare.image.at(13, 13) == doctest::Approx(1.0).epsilon(0.01));
-      CHECK(flare.image.at(16, k) / flare.image.at(13, 13) == doctest::Approx(1.0).epsilon(0.01));
+      CHECK(flare.image.at(k, 16) / flare.image.at(13, 13) == test::approx(1.0).epsilon(0.01));
+      CHECK(flare.image.at(16, k) / flare.image.at(13, 13) == test::approx(1.0).epsilon(0.01));
     }
   }
 }
