@@ -65,7 +65,10 @@ class Grouping {
           group.level > one.level ? level_error(ghost, group.level) + spot_error(ghost, group.level) : 0.0;
       if (!(coarse <= limit)) continue;
       const LinearMap& map = group.is_sharp ? kZeroMap : group.map;
-      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own, 0.0) + coarse;
+      // A ghost that its own map fits badly may fit another's as well, but changes visibly between the two.
+      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own,
+                                    map_difference(*one.blur, one.blur->px, map, piece_, peak_)) +
+                           coarse;
       const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * std::max(group.level, 0));
       if (!(error <= limit && cost < cheapest)) continue;
       cheapest = cost;

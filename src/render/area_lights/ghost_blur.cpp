@@ -225,6 +225,13 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
   return squares;
 }
 
+double map_difference(const GhostBlur& ghost, const LinearMap& a, const LinearMap& b, const LightPiece& piece,
+                      double peak) {
+  GhostBlur as_drawn = ghost;
+  for (BlurredLine& f : as_drawn.lines) f.shift_px = along(f.normal, a);
+  return map_error(as_drawn, b, piece, peak);
+}
+
 namespace {
 
 // A ghost's mean level in a cell at some distance of its middle, over its own level; lengths in cells. It fades over a

@@ -110,6 +110,32 @@ TEST_CASE("a ghost that joins another's image does not change its blur") {
   CHECK(made.clusters.front().px_from_tangents.x.x == doctest::Approx(sharp.px.x.x));
 }
 
+TEST_CASE("a ghost that no map fits does not change to another ghost's blur as if that changed nothing") {
+  // Its lines move by 450 and by 850 of the map's units, so that either fits it about as badly.
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur wide, torn;
+  wide.px = LinearMap{} * 850.0;
+  torn.px = LinearMap{} * 450.0;
+  wide.level = 1.0;
+  torn.level = 0.9;
+  wide.blur_px = {4.0, 4.0};
+  torn.blur_px = {2.1, 2.1};
+  wide.size_px = torn.size_px = {20.0, 20.0};
+  wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {450.0, 0.0}, 0.5, 50.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 0.5, 100.0});
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  light.radius_rad = kSunRadius_rad;
+  const LightPiece piece = pieces_of(light).front();
+  const double own = map_error(torn, torn.px, piece, 1.0), shared = map_error(torn, wide.px, piece, 1.0);
+  const double seen = map_difference(torn, torn.px, wide.px, piece, 1.0);
+  CHECK(seen > 2.0 * (shared - own));
+  const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&torn, 0, 1}};
+  CHECK(blur_clusters(ghosts, piece, frame, 1.0, 0.9 * seen).clusters.size() == 2);
+  CHECK(blur_clusters(ghosts, piece, frame, 1.0, 1.1 * seen).clusters.size() == 1);
+}
+
 namespace {
 
 // A ghost of radius 10 pixels, blurred by one to three pixels.
