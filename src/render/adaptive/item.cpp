@@ -153,15 +153,18 @@ void count_pieces(std::vector<Item>& items) {
   for (Item& item : items) item.pieces = pieces.at({item.ghost, item.light->index});
 }
 
-// The level and the area of a list of polygons, in pixels of the whole frame.
+// The level and the area of a list of polygons, in pixels of the whole frame. A polygon that lies in one pixel is a
+// point, whose values are its flux.
 LevelEstimate level_of(const PolygonList& list, int scale) {
   const double pixels = scale * scale;
   const double min_px = 1.0 / pixels;
   double light = 0.0, squares = 0.0;
   for (const Polygon& polygon : list.polygons) {
-    const double polygon_px = 0.5 * std::abs(twice_signed_area(list.corners_of(polygon)));
+    const auto corners = list.corners_of(polygon);
+    const double polygon_px = 0.5 * std::abs(twice_signed_area(corners));
     const auto& v = list.irradiance_of(polygon).value;
-    const double here = polygon_px * std::sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0);
+    const double rms = std::sqrt((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 3.0);
+    const double here = corners.size() == 1 ? rms : polygon_px * rms;
     light += here;
     squares += here * here / std::max(polygon_px, min_px);
   }

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace contrejour::inline internal::area {
 namespace {
@@ -17,7 +19,8 @@ constexpr double kPixelsCost = 0.3;  // cost of an image in the frame's pixels, 
 struct Group {
   bool is_sharp = false;
   int level = 0;
-  LinearMap seed = kZeroMap;  // of its brightest ghost, in pixels of the frame: the map that all are drawn with
+  std::size_t seed = 0;  // its brightest ghost,
+  LinearMap map = kZeroMap;  // and that ghost's map in pixels of the frame, with which all are drawn
   std::size_t spot = 0;  // for a negative level
   std::vector<std::size_t> ghosts;
 };
@@ -38,7 +41,7 @@ class Grouping {
     Group* group = group_for(one, own);
     if (group == nullptr) {
       const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
-      group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, one.blur->px, one.spot, {}});
+      group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, index, one.blur->px, one.spot, {}});
     } else
       squares += cheapest_;
     group->ghosts.push_back(index);
@@ -61,8 +64,11 @@ class Grouping {
       const double coarse =
           group.level > one.level ? level_error(ghost, group.level) + spot_error(ghost, group.level) : 0.0;
       if (!(coarse <= limit)) continue;
-      const LinearMap& map = group.is_sharp ? kZeroMap : group.seed;
-      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own, 0.0) + coarse;
+      const LinearMap& map = group.is_sharp ? kZeroMap : group.map;
+      // A ghost that its own map fits badly may fit another's as well, but changes visibly between the two.
+      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own,
+                                    map_difference(*one.blur, one.blur->px, map, piece_, peak_)) +
+                           coarse;
       const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * std::max(group.level, 0));
       if (!(error <= limit && cost < cheapest)) continue;
       cheapest = cost;
@@ -94,10 +100,52 @@ BlurClusters blur_clusters(std::span<const PieceGhost> ghosts, const LightPiece&
     BlurCluster made;
     made.is_sharp = group.is_sharp;
     made.level = group.level;
-    made.px_from_tangents = group.seed * std::exp2(-made.level);
+    made.px_from_tangents = group.map * std::exp2(-made.level);
+    made.seed = group.seed;
     std::sort(group.ghosts.begin(), group.ghosts.end());
+    made.light_fractions.assign(group.ghosts.size(), 1.0);
     made.ghosts = std::move(group.ghosts);
     out.clusters.push_back(std::move(made));
+  }
+  return out;
+}
+
+namespace {
+
+// Adds a part of a cluster's light to another cluster with the same blur.
+void add_light(BlurCluster& to, const BlurCluster& from, double part) {
+  std::map<std::size_t, double> fractions;
+  for (std::size_t k = 0; k < to.ghosts.size(); ++k) fractions[to.ghosts[k]] = to.light_fractions[k];
+  for (std::size_t k = 0; k < from.ghosts.size(); ++k) fractions[from.ghosts[k]] += part * from.light_fractions[k];
+  to.ghosts.clear();
+  to.light_fractions.clear();
+  for (const auto& [ghost, fraction] : fractions) {
+    to.ghosts.push_back(ghost);
+    to.light_fractions.push_back(fraction);
+  }
+}
+
+bool are_alike(const BlurCluster& a, const BlurCluster& b) {
+  return a.is_sharp && b.is_sharp ? true : a.is_sharp == b.is_sharp && a.seed == b.seed;
+}
+
+}  // namespace
+
+BlurClusters mean_of(const BlurClusters& first, const BlurClusters& second, double part) {
+  if (!(part > 0.0)) return first;
+  if (!(part < 1.0)) return second;
+  BlurClusters out;
+  out.squares = std::lerp(first.squares, second.squares, part);
+  for (const auto& [from, times] : {std::pair(&first, 1.0 - part), std::pair(&second, part)}) {
+    for (const BlurCluster& cluster : from->clusters) {
+      auto to = std::ranges::find_if(out.clusters, [&](const BlurCluster& one) { return are_alike(one, cluster); });
+      if (to == out.clusters.end()) {
+        to = out.clusters.insert(to, cluster);
+        to->ghosts.clear();
+        to->light_fractions.clear();
+      }
+      add_light(*to, cluster, times);
+    }
   }
   return out;
 }

@@ -24,7 +24,9 @@ struct BlurCluster {
   bool is_sharp = false;  // its blur is not visible: it is drawn without
   int level = 0;          // of the image pyramid
   LinearMap px_from_tangents;  // in pixels of that level
+  std::size_t seed = 0;  // the given ghost whose blur all have
   std::vector<std::size_t> ghosts;  // indices of the given ghosts, ascending
+  std::vector<double> light_fractions;  // one for each of `ghosts`: the part of its light in this cluster
 };
 
 struct BlurClusters {
@@ -35,5 +37,9 @@ struct BlurClusters {
 // allowed_squares: the error of a ghost that may save an image as costly as one at the frame's resolution.
 [[nodiscard]] BlurClusters blur_clusters(std::span<const PieceGhost> ghosts, const LightPiece& piece,
                                          const Frame& frame, double peak, double allowed_squares);
+
+// The mean of two choices of clusters for the same ghosts, with this part of the second: a ghost that they assign to
+// different clusters has a part of its light in each. So ghosts fade from one choice into the other as `part` changes.
+[[nodiscard]] BlurClusters mean_of(const BlurClusters& first, const BlurClusters& second, double part);
 
 }  // namespace contrejour::inline internal::area

@@ -2,8 +2,10 @@
 #include "render/area_lights/blurred_images.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <utility>
 
 namespace contrejour::inline internal::area {
@@ -11,8 +13,7 @@ namespace {
 
 constexpr double kLevelFraction = 0.1;    // of the frame's squared error: for coarse pixels,
 constexpr double kMisfitFraction = 0.3;   // and for ghosts that are drawn with another ghost's blur
-constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first trial
-constexpr int kTrials = 4;
+constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first choice tried
 
 // Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights.
 struct Job {
@@ -22,6 +23,12 @@ struct Job {
   std::vector<PieceGhost> pairs;
   bool is_point = false;
 };
+
+PlannedLight dimmed(PlannedLight light, double factor) {
+  for (PlannedPass& pass : light.passes)
+    for (double& gain : pass.gain) gain *= factor;
+  return light;
+}
 
 class Jobs {
  public:
@@ -71,10 +78,7 @@ class Jobs {
   // The light of a ghost of which only a part is made with this division.
   const PlannedLight* planned(const PlannedLight& light, double part) {
     if (part == 1.0) return &light;
-    PlannedLight& dim = dimmed_.emplace_back(light);
-    for (PlannedPass& pass : dim.passes)
-      for (double& gain : pass.gain) gain *= part;
-    return &dim;
+    return &dimmed_.emplace_back(dimmed(light, part));
   }
 
   double peak_, spot_squares_;
@@ -84,29 +88,60 @@ class Jobs {
   std::deque<PlannedLight> dimmed_;
 };
 
-// Finds as few images as the allowed error permits, by raising or lowering the error that an image may save.
-std::vector<BlurClusters> clusters_of(const std::vector<Job>& jobs, const Frame& frame, double peak,
-                                      double allowed_squares) {
-  std::vector<BlurClusters> all;
-  double each = kFirstFraction * allowed_squares;
-  for (int trial = 1;; ++trial) {
-    all.clear();
-    double squares = 0.0;
-    for (const Job& job : jobs) {
-      all.push_back(job.is_point ? BlurClusters{} : blur_clusters(job.pairs, *job.piece, frame, peak, each));
-      squares += all.back().squares;
-    }
-    const bool is_allowed = squares <= allowed_squares;
-    if (is_allowed && (trial >= kTrials || squares > 0.3 * allowed_squares)) return all;
-    if (trial >= 2 * kTrials) return all;
-    each *= is_allowed ? 3.0 : 0.3;
-  }
-}
+// Chooses clusters for all jobs by the error that an image may save: the larger that is, the fewer images there are.
+// Only errors of a geometric series are tried. Between the coarsest choice that makes no more than the error aimed at
+// and the next one, all ghosts fade as the errors change; with one of them alone, ghosts would change their images
+// together, from one frame to the next.
+class ClusterChoice {
+ public:
+  ClusterChoice(const std::vector<Job>& jobs, const Frame& frame, double peak, double allowed_squares)
+      : jobs_(jobs), frame_(frame), peak_(peak), allowed_(allowed_squares) {}
 
-// Adds a pair to an image. A light that successive pairs share is listed once.
-void add_pair(BlurredImage& image, const Job& job, std::size_t k, const PlannedLight*& last) {
-  if (job.planned[k] != last) image.lights.push_back(*job.planned[k]);
-  last = job.planned[k];
+  [[nodiscard]] std::vector<BlurClusters> clusters() {
+    const double aim = kAim * allowed_;
+    int step = 0;
+    while (step < kMaxSteps && squares(step + 1) <= aim) ++step;
+    while (step > -kMaxSteps && squares(step) > aim) --step;
+    const double below = squares(step), above = squares(step + 1);
+    const double part = above > below ? std::clamp((aim - below) / (above - below), 0.0, 1.0) : 0.0;
+    std::vector<BlurClusters> means;
+    for (std::size_t k = 0; k < jobs_.size(); ++k)
+      means.push_back(mean_of(tried_.at(step)[k], tried_.at(step + 1)[k], part));
+    return means;
+  }
+
+ private:
+  static constexpr int kMaxSteps = 16;
+  static constexpr double kAim = 0.6, kRatio = 1.5;
+
+  double squares(int step) {
+    auto [at, is_new] = tried_.try_emplace(step);
+    const double each = kFirstFraction * allowed_ * std::pow(kRatio, step);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < jobs_.size(); ++k) {
+      if (is_new)
+        at->second.push_back(jobs_[k].is_point ? BlurClusters{}
+                                               : blur_clusters(jobs_[k].pairs, *jobs_[k].piece, frame_, peak_, each));
+      sum += at->second[k].squares;
+    }
+    return sum;
+  }
+
+  const std::vector<Job>& jobs_;
+  const Frame& frame_;
+  double peak_, allowed_;
+  std::map<int, std::vector<BlurClusters>> tried_;  // by the step of the series
+};
+
+// Adds a part of a pair to an image. A light that successive pairs share is listed once.
+void add_pair(BlurredImage& image, const Job& job, std::size_t k, double part, const PlannedLight*& last) {
+  if (part < 1.0) {
+    image.lights.push_back(dimmed(*job.planned[k], part));
+    last = nullptr;
+  } else {
+    if (job.planned[k] != last) image.lights.push_back(*job.planned[k]);
+    last = job.planned[k];
+  }
   image.pairs.push_back({job.ghost[k], image.lights.size() - 1});
 }
 
@@ -120,19 +155,20 @@ std::vector<BlurredImage> blurred_images(const SurveyedFrame& frame, const Frame
   const double squares = settings.area_error * settings.area_error * settings.frame.width * settings.frame.height;
   const Jobs jobs(frame, squares);
   const std::vector<BlurClusters> clusters =
-      clusters_of(jobs.all, settings.frame, frame.peak, kMisfitFraction * squares);
+      ClusterChoice(jobs.all, settings.frame, frame.peak, kMisfitFraction * squares).clusters();
   std::vector<BlurredImage> images;
   BlurredImage sharp;
   for (std::size_t j = 0; j < jobs.all.size(); ++j) {
     const Job& job = jobs.all[j];
     const PlannedLight* last = nullptr;
-    for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) add_pair(sharp, job, k, last);
+    for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) add_pair(sharp, job, k, 1.0, last);
     for (const BlurCluster& made : clusters[j].clusters) {
       BlurredImage image{{}, {}, job.piece, made.level, made.px_from_tangents, {}};
       if (made.level < 0)
         image.window = window_of(jobs.spot(job.pairs[made.ghosts.front()].spot), settings.frame, made.level);
       last = nullptr;
-      for (const std::size_t k : made.ghosts) add_pair(made.is_sharp ? sharp : image, job, k, last);
+      for (std::size_t m = 0; m < made.ghosts.size(); ++m)
+        add_pair(made.is_sharp ? sharp : image, job, made.ghosts[m], made.light_fractions[m], last);
       if (!made.is_sharp) images.push_back(std::move(image));
     }
   }

@@ -225,6 +225,13 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
   return squares;
 }
 
+double map_difference(const GhostBlur& ghost, const LinearMap& a, const LinearMap& b, const LightPiece& piece,
+                      double peak) {
+  GhostBlur as_drawn = ghost;
+  for (BlurredLine& f : as_drawn.lines) f.shift_px = along(f.normal, a);
+  return map_error(as_drawn, b, piece, peak);
+}
+
 namespace {
 
 // A ghost's mean level in a cell at some distance of its middle, over its own level; lengths in cells. It fades over a
@@ -244,20 +251,32 @@ double reached_by(std::vector<double> values, double fraction) {
   return std::lerp(*nth, *std::min_element(nth + 1, values.end()), at - static_cast<double>(below));
 }
 
-// The level of the brightest ghosts that together fill an area, or a little less: it changes linearly from one ghost's
-// to the next one's.
-double brightest_over(const std::vector<GhostBlur>& ghosts, double area_px) {
+// The area of a blurred ghost that lies in the frame: of one as large across the frame's nearest border as across its
+// longer axis. It is not quite 0 elsewhere, so that ghosts count if there are no others.
+double visible_px(const GhostBlur& ghost, const Frame& frame) {
+  constexpr double kLeast = 1e-6;
+  const double radius_px = std::hypot(ghost.size_px.y, ghost.blur_px.y) + 0.5;
+  const double inside = std::clamp(0.5 + 0.5 * inside_px(frame, ghost.at_px) / radius_px, 0.0, 1.0);
+  return ghost.area_px * std::max(inside * inside * (3.0 - 2.0 * inside), kLeast);
+}
+
+// The level of the brightest ghosts that together fill about this area of the frame: the mean from half of it to one
+// and a half times as much, which changes steadily as ghosts become brighter or enter the frame.
+double brightest_over(const std::vector<GhostBlur>& ghosts, const Frame& frame, double area_px) {
   std::vector<const GhostBlur*> by_level;
   for (const GhostBlur& ghost : ghosts)
     if (ghost.level > 0.0) by_level.push_back(&ghost);
   std::ranges::stable_sort(by_level, std::greater(), &GhostBlur::level);
-  double filled_px = 0.0;
-  for (std::size_t k = 0; k + 1 < by_level.size(); ++k) {
-    const double own_px = by_level[k]->area_px;
-    if (filled_px + own_px >= area_px)
-      return std::lerp(by_level[k]->level, by_level[k + 1]->level, (area_px - filled_px) / own_px);
-    filled_px += own_px;
+  const double from_px = 0.5 * area_px, to_px = 1.5 * area_px;
+  double filled_px = 0.0, light = 0.0, counted_px = 0.0;
+  for (const GhostBlur* ghost : by_level) {
+    const double end_px = filled_px + visible_px(*ghost, frame);
+    const double within_px = std::max(std::min(end_px, to_px) - std::max(filled_px, from_px), 0.0);
+    light += ghost->level * within_px;
+    counted_px += within_px;
+    filled_px = end_px;
   }
+  if (counted_px > 0.0) return light / counted_px;
   return by_level.empty() ? 0.0 : by_level.back()->level;
 }
 
@@ -281,7 +300,7 @@ double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
   }
   // Spots are smaller than such a cell.
   return std::max(reached_by(std::move(sums), kPeakFraction),
-                  brightest_over(ghosts, kPeakFraction * frame.width * frame.height));
+                  brightest_over(ghosts, frame, kPeakFraction * frame.width * frame.height));
 }
 
 }  // namespace contrejour::inline internal::area

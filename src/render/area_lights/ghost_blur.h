@@ -48,6 +48,10 @@ struct GhostBlur {
 // discs and soft pieces only the width of the blur counts; for other pieces the map's rotation does, too.
 [[nodiscard]] double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak);
 
+// The same difference between the ghost blurred by one map and by another.
+[[nodiscard]] double map_difference(const GhostBlur& ghost, const LinearMap& a, const LinearMap& b,
+                                    const LightPiece& piece, double peak);
+
 // The level that the brightest kPeakFraction of the frame reach, with ghosts as uniform discs.
 inline constexpr double kPeakFraction = 0.002;
 [[nodiscard]] double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame);

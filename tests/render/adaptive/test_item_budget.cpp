@@ -22,3 +22,17 @@ TEST_CASE("negligible items are drawn in preview quality as long as all of it is
   sizes[4] = size(0.0, 0.0);      // no light was found
   CHECK(negligible_items(sizes, {0.003, 1.0, 1e4}) == std::vector<bool>{true, false, false, true, false});
 }
+
+TEST_CASE("errors above the peak count less, but not those of a ghost of a few pixels") {
+  const ErrorBudget frame{1.0, 2.0, {}};
+  const auto peak = [&](double level, double area_px) {
+    ItemEstimate estimate;
+    estimate.level = level, estimate.area_px = area_px;
+    return budget_of(estimate, false, false, frame).peak;
+  };
+  CHECK(peak(60.0, 1.0) == doctest::Approx(60.0).epsilon(0.01));
+  CHECK(peak(60.0, 16.0) == doctest::Approx(30.0));
+  CHECK(peak(60.0, 400.0) == 2.0);
+  CHECK(peak(1.0, 1.0) == 2.0);
+  CHECK(peak(0.0, 0.0) == 2.0);  // the preview shows nothing of it
+}

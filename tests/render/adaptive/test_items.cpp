@@ -99,6 +99,23 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
   CHECK(drawn({}, 5).image.pixels.empty());
 }
 
+TEST_CASE("the preview tells the level of a ghost that is smaller than its pixels") {
+  const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
+  test::Settings settings;
+  settings.wavelengths = 3;
+  settings.frame = frame_on_sensor(lens, 320, 180);
+  settings.selection = SelectList{{{1, 3}}};
+  const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  const auto estimates = preview_frame(lens, light, settings).estimates;
+  REQUIRE(estimates.size() == 1);
+  const auto image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+  double largest = 0.0;
+  for (const float value : image.pixels) largest = std::max(largest, static_cast<double>(value));
+  CHECK(estimates.front().area_px == doctest::Approx(1.0));
+  CHECK(estimates.front().level > 0.4 * largest);  // of one channel; the level is the RMS of all
+  CHECK(estimates.front().level < 1.2 * largest);
+}
+
 // Coatings reflect the middle wavelength least: with its light in place of all, the peak would be a third of the true
 // one.
 TEST_CASE("the peak that errors are relative to is the picture's, whatever its size and wavelengths [slow]") {

@@ -303,6 +303,35 @@ TEST_CASE("a ghost alone, of which the preview shows nothing") {
   }
 }
 
+TEST_CASE("a ghost in focus lies in its pixels, however far it exceeds the peak") {
+  // A spot of 0.5 x 0.3 pixels, 30 times as bright as the peak of the other ghosts, crosses from pixel to pixel. A
+  // tenth of its light was in the wrong one.
+  const LensState lens = test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
+  test::Settings settings;
+  settings.wavelengths = 32;
+  settings.frame = frame_on_sensor(lens, 320, 180);
+  settings.scope = GhostScope::OneSideOfStop;
+  for (const double moved_px : {15.0, 15.1, 15.2}) {
+    CAPTURE(moved_px);
+    const Light light = test::light_at(lens, settings.frame,
+                                       {0.70 + moved_px * std::cos(0.3) / 320, 0.33 + moved_px * std::sin(0.3) / 180});
+    settings.set_grid(96);
+    settings.selection = SelectList{{{1, 3}}};
+    const Image spot = test::flare_of("bundle", lens, {&light, 1}, settings).image;
+    settings.selection = SelectAll{};
+    const Image all = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
+    const double whole = channel_sums(spot)[2];
+    const std::size_t brightest = static_cast<std::size_t>(std::ranges::max_element(spot.pixels) - spot.pixels.begin());
+    const int x = static_cast<int>(brightest / 3) % 320, y = static_cast<int>(brightest / 3) / 320;
+    CHECK(whole > 20.0 * quantile_of_samples(all, 0.999));
+    for (const int dy : {-1, 0, 1})
+      for (const int dx : {-1, 0, 1}) {
+        const double off = static_cast<double>(all.at(x + dx, y + dy, 2)) - spot.at(x + dx, y + dy, 2);
+        CHECK(std::abs(off) < 0.06 * whole);
+      }
+  }
+}
+
 TEST_CASE("a ghost nearly in focus keeps its light, however few pixels it is [slow]") {
   const LensState lens = test::bundled("itoh-zoom", {.f_number = 32.0, .iris = {7}});
   const Light light{.direction = normalized(Vec3{-0.295885, -0.285027, 0.911708})};

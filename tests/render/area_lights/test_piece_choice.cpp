@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "render/area_lights/blur_clusters.h"
+#include "render/area_lights/blurred_images.h"
 #include "render/area_lights/piece_choice.h"
 #include "support/approx.h"
 #include "support/scenes.h"
@@ -107,4 +109,123 @@ TEST_CASE("a ghost that joins another's image does not change its blur") {
   const BlurClusters made = blur_clusters(ghosts, pieces_of(light).front(), frame, 1.0, 0.5);
   REQUIRE(made.clusters.size() == 1);
   CHECK(made.clusters.front().px_from_tangents.x.x == test::approx(sharp.px.x.x));
+}
+
+TEST_CASE("a ghost that no map fits does not change to another ghost's blur as if that changed nothing") {
+  // Its lines move by 450 and by 850 of the map's units, so that either fits it about as badly.
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur wide, torn;
+  wide.px = LinearMap{} * 850.0;
+  torn.px = LinearMap{} * 450.0;
+  wide.level = 1.0;
+  torn.level = 0.9;
+  wide.blur_px = {4.0, 4.0};
+  torn.blur_px = {2.1, 2.1};
+  wide.size_px = torn.size_px = {20.0, 20.0};
+  wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {450.0, 0.0}, 0.5, 50.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 0.5, 100.0});
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  light.radius_rad = kSunRadius_rad;
+  const LightPiece piece = pieces_of(light).front();
+  const double own = map_error(torn, torn.px, piece, 1.0), shared = map_error(torn, wide.px, piece, 1.0);
+  const double seen = map_difference(torn, torn.px, wide.px, piece, 1.0);
+  CHECK(seen > 2.0 * (shared - own));
+  const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&torn, 0, 1}};
+  CHECK(blur_clusters(ghosts, piece, frame, 1.0, 0.9 * seen).clusters.size() == 2);
+  CHECK(blur_clusters(ghosts, piece, frame, 1.0, 1.1 * seen).clusters.size() == 1);
+}
+
+namespace {
+
+// A ghost of radius 10 pixels, blurred by one to three pixels.
+GhostBlur blurred_ghost(std::size_t number) {
+  GhostBlur ghost;
+  const double by = 200.0 * std::pow(3.0, static_cast<double>(number * 7 % 20) / 19.0);
+  ghost.px = ghost.motion_px = LinearMap{} * by;
+  ghost.blur_px = Vec2{1.0, 1.0} * (by * std::tan(kSunRadius_rad));
+  ghost.size_px = {10.0, 10.0};
+  ghost.level = 0.2 - 0.001 * static_cast<double>(number);
+  ghost.area_px = 400.0;
+  ghost.at_px = {80.0, 45.0};
+  ghost.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {by, 0.0}, ghost.level, 30.0});
+  ghost.lines.push_back({{0.0, 1.0}, {80.0, 45.0}, {0.0, by}, ghost.level, 30.0});
+  return ghost;
+}
+
+// The mean by light of the map that each ghost is drawn with.
+std::vector<double> drawn_maps(const SurveyedFrame& frame, const FrameSettings& settings) {
+  std::vector<double> light(frame.lights.front().ghosts.size()), maps(light.size());
+  for (const BlurredImage& image : blurred_images(frame, settings))
+    for (const GhostOfLight& pair : image.pairs) {
+      const double part = image.lights[pair.light].passes.front().gain[0];
+      light[pair.ghost] += part;
+      maps[pair.ghost] += part * image.px_from_tangents.x.x * std::exp2(image.level);
+    }
+  for (const double one : light) CHECK(one == doctest::Approx(1.0));
+  return maps;
+}
+
+}  // namespace
+
+TEST_CASE("as errors grow steadily, ghosts fade from one image into another, and lose no light") {
+  Light sun;
+  sun.direction = {0.0, 0.0, 1.0};
+  sun.radius_rad = kSunRadius_rad;
+  SurveyedLight light;
+  light.parts.pieces = pieces_of(sun);
+  light.parts.planned.emplace_back();
+  light.parts.planned.front().passes.push_back({550.0, {1.0, 1.0, 1.0}});
+  for (std::size_t k = 0; k < 20; ++k) {
+    light.ghosts.push_back(k);
+    light.light_fractions.push_back(1.0);
+    light.wholes.push_back(blurred_ghost(k));
+  }
+  light.blurs.push_back(light.wholes);
+  SurveyedFrame frame;
+  frame.lights.push_back(light);
+  FrameSettings settings;
+  settings.frame = {160, 90, 0, 0, 160, 90, 0.01};
+  std::vector<double> before;
+  int changes = 0;
+  double largest = 0.0;
+  for (frame.peak = 4.0; frame.peak > 1.0; frame.peak *= 0.998) {
+    CAPTURE(frame.peak);
+    const std::vector<double> maps = drawn_maps(frame, settings);
+    double step = 0.0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double off_px = std::abs(maps[k] - before[k]) * std::tan(kSunRadius_rad),
+                   width_px = light.wholes[k].blur_px.x;
+      step += 60.0 * misfit_error(light.wholes[k].level / frame.peak, width_px, off_px);
+      changes += off_px > 0.0 ? 1 : 0;
+    }
+    largest = std::max(largest, step);
+    before = maps;
+  }
+  // With one choice of clusters at a time a step was 0.2 of the frame's squared error.
+  CHECK(largest < 0.15 * settings.area_error * settings.area_error * settings.frame.width * settings.frame.height);
+  CHECK(changes > 1000);
+}
+
+TEST_CASE("a bright ghost beside the frame is no part of the peak, which changes steadily as it comes in") {
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur inside, outside;
+  inside.level = 1.0;
+  inside.area_px = 2000.0;
+  inside.at_px = {80.0, 45.0};
+  inside.size_px = inside.blur_px = {18.0, 18.0};
+  outside.level = 3.0;
+  outside.area_px = 120.0;
+  outside.size_px = outside.blur_px = {4.4, 4.4};
+  outside.at_px = {180.0, 45.0};
+  double before = peak_of({inside, outside}, frame);
+  CHECK(before == doctest::Approx(1.0));
+  for (; outside.at_px.x > 140.0; outside.at_px.x -= 0.1) {
+    CAPTURE(outside.at_px.x);
+    const double peak = peak_of({inside, outside}, frame);
+    CHECK(peak == doctest::Approx(before).epsilon(0.1));
+    before = peak;
+  }
+  CHECK(before == doctest::Approx(3.0).epsilon(0.01));
 }

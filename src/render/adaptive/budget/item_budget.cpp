@@ -20,6 +20,16 @@ constexpr double kNegligibleLevel = 3e-5;  // of the peak: four stops brighter i
 // less, since preview quality is within a tenth of their light.
 constexpr double kNegligibleFraction = 0.05;
 
+// Errors above the frame's peak count less (peak_limited_weight), since pictures are compared with samples clipped
+// there. That holds on average along an outline, few of whose pixels are darker than the peak. A ghost of a few pixels
+// has no average: each pixel that its border crosses runs from 0 to the ghost's level, and below the peak all of that
+// counts, so that displacements show as flicker. Small ghosts have few cells, so that drawing them better costs little.
+double peak_for(const ItemEstimate& estimate, double peak) {
+  constexpr double kSmall_px = 16.0;  // area of a ghost half of whose level counts
+  const double size = std::max(estimate.area_px, 0.0) / kSmall_px;
+  return std::max(peak, estimate.level / (1.0 + size * size));
+}
+
 }  // namespace
 
 // The error that one item may make. Errors of different items have either sign and fall at different pixels, so they
@@ -38,6 +48,7 @@ ErrorBudget budget_per_item(const FrameError& allowed, const std::vector<ItemEst
 ErrorBudget budget_of(const ItemEstimate& estimate, bool has_fringes, bool is_negligible, const ErrorBudget& per_item) {
   ErrorBudget of_item = per_item;
   of_item.about = estimate;
+  of_item.peak = peak_for(estimate, per_item.peak);
   if (has_fringes) of_item.squared_error *= kPatternedFraction;
   if (is_negligible) of_item.squared_error = std::numeric_limits<double>::infinity();
   return of_item;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "render/ray_maps/lobatto_cells.h"
 
@@ -32,15 +33,24 @@ std::optional<LevelEstimate> level_of(const LobattoRays& ray_set, double pupil_l
   const LobattoCells cells(ray_set);
   const double pixel_mm2 = frame.pixel_pitch_mm * frame.pixel_pitch_mm;
   const auto rim = [&](std::size_t k) { return ray_set.relative_height[k]; };
-  double light = 0.0, squares = 0.0;
+  std::vector<std::size_t> counted;
+  double image_px = 0.0;
   for (std::size_t first = 0; first < cells.end(); ++first) {
     if (!cells.has(first)) continue;
     const auto corners = cells.corners(first);
     const auto [nearest, farthest] = std::ranges::minmax(corners, {}, rim);
     if (std::isinf(rim(farthest)) || rim(nearest) > kNearlyThrough) continue;
+    counted.push_back(first);
+    image_px += cells.image_mm2(first) / pixel_mm2;
+  }
+  // A cell smaller than a pixel counts as large as one, but all cells of a ghost in a pixel together count as one.
+  const double count = static_cast<double>(std::max<std::size_t>(counted.size(), 1));
+  const double least_px = std::min(std::max(image_px, 1.0) / count, 1.0);
+  double light = 0.0, squares = 0.0;
+  for (const std::size_t first : counted) {
     const double here = pupil_light * cells.entrance_mm2(first);
     light += here;
-    squares += here * here / std::max(cells.image_mm2(first) / pixel_mm2, 1.0);
+    squares += here * here / std::max(cells.image_mm2(first) / pixel_mm2, least_px);
   }
   if (!(light > 0.0)) return std::nullopt;
   return LevelEstimate{squares / light, light * light / squares};
@@ -50,6 +60,12 @@ std::optional<LevelEstimate> level_of(const LobattoRays& ray_set, double pupil_l
 LevelEstimate one_pixel(const LobattoRays& ray_set, double pupil_light) {
   const Vec2 size = ray_set.box.high - ray_set.box.low;
   return {pupil_light * size.x * size.y, 1.0};
+}
+
+// The smallest displacement that is asked for: positions of rays on the sensor are single-precision numbers.
+double least_shift_px(const Frame& frame) {
+  constexpr double kLeast_px = 0.0005, kRounding_mm = 4e-6;
+  return std::max(kLeast_px, kRounding_mm / frame.pixel_pitch_mm);
 }
 
 // The brighter of the two estimates, since light may be focused where no ray is traced.
@@ -85,8 +101,8 @@ Tolerance tolerance_for(const LobattoRays& ray_set, double weight, double shared
   t.colour_px = t.level > kColourLevel * budget.peak ? std::max(kColourShift_px, kColourShift * side) : kNoLimit;
   const double fraction = kFitFraction * (std::isfinite(ray_set.reach) ? kFractionOfFitted : 1.0);
   const double error = fraction * std::sqrt(budget.squared_error) / t.level;  // in levels, summed
-  t.position_px =
-      std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), 0.005, kMaxShift * side + kLittle_px);
+  t.position_px = std::clamp(std::min(error / (2.0 * std::sqrt(side)), error / 8.0), least_shift_px(frame),
+                             kMaxShift * side + kLittle_px);
   t.stop = 2.0 * t.position_px / side;
   t.lost_mm2 = error * error * t.level / pupil_light;
   t.weight = std::clamp(error / side, 1e-4, 0.5);
