@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "render/adaptive/budget/item_budget.h"
+#include "support/approx.h"
 
 using namespace contrejour;
 using namespace contrejour::adaptive;
@@ -30,8 +31,8 @@ TEST_CASE("errors above the peak count less, but not those of a ghost of a few p
     estimate.level = level, estimate.area_px = area_px;
     return budget_of(estimate, false, false, frame).peak;
   };
-  CHECK(peak(60.0, 1.0) == doctest::Approx(60.0).epsilon(0.01));
-  CHECK(peak(60.0, 16.0) == doctest::Approx(30.0));
+  CHECK(peak(60.0, 1.0) == test::approx(60.0).epsilon(0.01));
+  CHECK(peak(60.0, 16.0) == test::approx(30.0));
   CHECK(peak(60.0, 400.0) == 2.0);
   CHECK(peak(1.0, 1.0) == 2.0);
   CHECK(peak(0.0, 0.0) == 2.0);  // the preview shows nothing of it

@@ -7,6 +7,7 @@
 #include "render/adaptive/item.h"
 #include "render/adaptive/scene.h"
 #include "render/planning/frame_plan.h"
+#include "support/approx.h"
 #include "support/flares.h"
 
 using namespace contrejour;
@@ -111,7 +112,7 @@ TEST_CASE("the preview tells the level of a ghost that is smaller than its pixel
   const auto image = test::flare_of("adaptive", lens, {&light, 1}, settings).image;
   double largest = 0.0;
   for (const float value : image.pixels) largest = std::max(largest, static_cast<double>(value));
-  CHECK(estimates.front().area_px == doctest::Approx(1.0));
+  CHECK(estimates.front().area_px == test::approx(1.0));
   CHECK(estimates.front().level > 0.4 * largest);  // of one channel; the level is the RMS of all
   CHECK(estimates.front().level < 1.2 * largest);
 }

@@ -85,10 +85,9 @@ TEST_CASE("a ghost most of whose light gathers is held to the level there") {
 
 TEST_CASE("a ghost that is smaller than a pixel has its whole light in one") {
   for (const double side_px : {0.1, 0.5, 1.0})
-    CHECK(of(rays_of([&](Vec2 p) { return p * (0.005 * side_px); })).level / 4e-6 ==
-          doctest::Approx(0.93).epsilon(0.08));
+    CHECK(of(rays_of([&](Vec2 p) { return p * (0.005 * side_px); })).level / 4e-6 == test::approx(0.93).epsilon(0.08));
   // One of two pixels' length along each side lies in four.
-  CHECK(of(rays_of([](Vec2 p) { return p * 0.01; })).level / 4e-6 == doctest::Approx(0.23).epsilon(0.08));
+  CHECK(of(rays_of([](Vec2 p) { return p * 0.01; })).level / 4e-6 == test::approx(0.23).epsilon(0.08));
 }
 
 TEST_CASE("where no ray tells where a ghost lies, a small frame does") {

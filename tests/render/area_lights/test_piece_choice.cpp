@@ -163,7 +163,7 @@ std::vector<double> drawn_maps(const SurveyedFrame& frame, const FrameSettings& 
       light[pair.ghost] += part;
       maps[pair.ghost] += part * image.px_from_tangents.x.x * std::exp2(image.level);
     }
-  for (const double one : light) CHECK(one == doctest::Approx(1.0));
+  for (const double one : light) CHECK(one == test::approx(1.0));
   return maps;
 }
 
@@ -220,12 +220,12 @@ TEST_CASE("a bright ghost beside the frame is no part of the peak, which changes
   outside.size_px = outside.blur_px = {4.4, 4.4};
   outside.at_px = {180.0, 45.0};
   double before = peak_of({inside, outside}, frame);
-  CHECK(before == doctest::Approx(1.0));
+  CHECK(before == test::approx(1.0));
   for (; outside.at_px.x > 140.0; outside.at_px.x -= 0.1) {
     CAPTURE(outside.at_px.x);
     const double peak = peak_of({inside, outside}, frame);
-    CHECK(peak == doctest::Approx(before).epsilon(0.1));
+    CHECK(peak == test::approx(before).epsilon(0.1));
     before = peak;
   }
-  CHECK(before == doctest::Approx(3.0).epsilon(0.01));
+  CHECK(before == test::approx(3.0).epsilon(0.01));
 }
