@@ -39,7 +39,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 Result<double> parse_real(std::string_view text) {
   double value = 0.0;
   if (!read_whole(text, value) || !std::isfinite(value)) {
-    return invalid_argument(fmt::format("\"{}\" is not a finite number", text));
+    return invalid_argument(fmt::format("\"{}\" is not a number", text));
   }
   return value;
 }
@@ -88,7 +88,8 @@ Result<PixelSize> parse_size(std::string_view text) {
     return invalid_argument(fmt::format("{} has no pixels; width and height must be at least 1", text));
   }
   if (static_cast<double>(size.width) * size.height > kMaxPixels) {
-    return invalid_argument(fmt::format("{} is too large; a picture may have at most 2^28 pixels", text));
+    return invalid_argument(
+        fmt::format("{} is too large; a picture may have at most 2^28 pixels, such as 16384x16384", text));
   }
   return size;
 }

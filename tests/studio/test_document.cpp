@@ -66,6 +66,18 @@ TEST_CASE("the ghosts of one surface are the value select, once more all ghosts"
   CHECK(with_ghosts_of_surface(d, 11)->text("select") == "all");
 }
 
+TEST_CASE("a ghost is drawn unless it is muted, others are solo, or another surface's are chosen") {
+  const Document document = first_document();
+  const Ghost a{2, 5}, b{3, 8};
+  CHECK(is_drawn(document, a));
+  CHECK_FALSE(is_drawn(*with_mute(document, a, true), a));
+  CHECK(is_drawn(*with_mute(document, a, true), b));
+  CHECK(is_drawn(*with_solo(document, a, true), a));
+  CHECK_FALSE(is_drawn(*with_solo(document, a, true), b));
+  CHECK(is_drawn(*with_ghosts_of_surface(document, 8), b));
+  CHECK_FALSE(is_drawn(*with_ghosts_of_surface(document, 8), a));
+}
+
 TEST_CASE("a surface has one coating, that of its last edit") {
   Document d = first_document();
   d.texts.erase("coating-at");

@@ -63,11 +63,26 @@ class SamePicture(StudioTest):
 
     def test_a_lens_is_opened_and_an_unknown_one_refused_in_the_dialog(self):
         lines = [["key", "ctrl+o"], ["frames", 3], ["type", "no-such-lens"], ["key", "enter"], ["frames", 3], ["state", "refused.json"],
-                 ["click", "dialog/path"], ["key", "ctrl+a"], ["type", "tessar"], ["key", "enter"]]
+                 ["click", "dialog/path"], ["key", "ctrl+a"], ["type", "tessar"], ["key", "enter"], ["wait"], ["state", "opened.json"],
+                 ["key", "ctrl+o"], ["frames", 4], ["type", str(self.folder / "lenses")], ["key", "enter"], ["frames", 4], ["state", "listed.json"],
+                 ["type", "mine.session.json"], ["key", "enter"], ["wait"], ["key", "ctrl+o"], ["frames", 4], ["state", "again.json"], ["key", "escape"],
+                 ["frames", 2], ["key", "escape"], ["frames", 2], ["click", "toolbar/lens"], ["frames", 3], ["type", "color-h"], ["frames", 2],
+                 ["state", "found.json"], ["key", "enter"], ["wait"], ["key", "ctrl+s"], ["frames", 4]]
+        (self.folder / "lenses").mkdir()
+        (self.folder / "lenses" / "mine.session.json").write_text(scene("distagon-25"))
+        (self.folder / "lenses" / "picture.png").write_bytes(b"")
         state = self.state_after(lines)
+        self.assertEqual(self.state("opened.json")["lens"], "tessar")
+        listed, again, found = (self.state(f"{name}.json") for name in ("listed", "again", "found"))
+        self.assertNotEqual(listed["dialog"], 0)
+        self.assertEqual([w["id"] for w in listed["widgets"] if w["id"].startswith("folder/")], ["folder/mine.session.json"])
+        self.assertEqual(self.widget(listed, "dialog/all-files")["value"], "1")
+        self.assertEqual(self.widget(again, "dialog/path")["value"], str(self.folder / "lenses") + "/")
+        self.assertEqual([w["id"] for w in found["widgets"] if w["id"].startswith("toolbar/lens/") and w["id"] != "toolbar/lens/find"],
+                         ["toolbar/lens/heliar"])
         self.assertNotEqual(self.state("refused.json")["dialog"], 0)
         self.assertIn("no-such-lens", self.state("refused.json")["problem"])
-        self.assertEqual(state["lens"], "tessar")
+        self.assertEqual(state["lens"], "heliar")
 
 
 class Recovery(StudioTest):

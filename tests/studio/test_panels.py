@@ -57,7 +57,7 @@ class Iris(PanelTest):
         state = self.state_after(lines, window="1280x720")
         self.assertNotIn("blades", self.state("before.json")["values"])
         self.assertGreater(int(state["values"]["blades"][0]), 2)
-        self.assertIn("open", self.widget(state, "iris/pupil")["value"])
+        self.assertIn("clear", self.widget(state, "iris/pupil")["value"])
         self.assertIn("wide", self.widget(state, "iris/spread")["value"])
         self.assertEqual(state["history"]["steps"][-1], "set blades")
 
@@ -74,9 +74,12 @@ class Compare(PanelTest):
         wiped, dragged = self.state("wiped.json"), self.state("dragged.json")
         x0, y0, x1, y1 = (int(round(v)) for v in self.widget(wiped, "viewport/picture")["rect"])
         middle, gap = (x0 + x1) // 2, 6
+        labels = self.widget(wiped, "viewport/wipe/labels")
+        self.assertEqual(labels["value"], "Snapshot 1")
+        end = min(y1 - 3, int(labels["rect"][1]) - 1)
         rows = [self.picture(f"{name}.png")[2] for name in ("before", "after", "wiped")]
         changed = 0
-        for y in range(y0 + 3, y1 - 3):
+        for y in range(y0 + 3, end):
             left, right = slice(3 * (x0 + 3), 3 * (middle - 2 * gap)), slice(3 * (middle + 2 * gap), 3 * (x1 - 3))
             self.assertEqual(rows[2][y][left], rows[0][y][left])
             self.assertEqual(rows[2][y][right], rows[1][y][right])

@@ -47,6 +47,21 @@ TEST_CASE("a cell sets its own number, and what is wrong says why") {
   CHECK_FALSE(with_cell(lens, 99, LensColumn::Radius, "1"));
 }
 
+TEST_CASE("errors of an edited lens name the surface and no file, and unknown glasses those that are near") {
+  Prescription lens = lens_called("heliar");
+  const auto steep = with_cell(lens, 0, LensColumn::Radius, "3");
+  REQUIRE_FALSE(steep);
+  const std::string message = steep.error().to_string();
+  CHECK(message.starts_with("surface 1: radius 3 mm is smaller than the semi-diameter"));
+  const auto banana = with_cell(lens, 0, LensColumn::Glass, "BANANA");
+  REQUIRE_FALSE(banana);
+  CHECK(banana.error().message.find("contrejour") == std::string::npos);
+  CHECK(banana.error().message.find("BA") != std::string::npos);
+  const auto nothing = with_cell(lens, 0, LensColumn::Glass, "!!!!!!!!!!");
+  REQUIRE_FALSE(nothing);
+  CHECK(nothing.error().message.find("contrejour") == std::string::npos);
+}
+
 TEST_CASE("a surface that is inserted and deleted leaves the lens as it was") {
   for (const char* name : {"heliar", "nikon-80-200"}) {
     const Prescription lens = lens_called(name);
@@ -97,6 +112,8 @@ TEST_CASE("glasses are completed by their beginning, in any case") {
   CHECK(names.size() <= 5);
   for (const std::string& name : names) CHECK(name.starts_with("N-BK"));
   CHECK(glasses_like("no such glass", 5).empty());
+  CHECK(glasses_near("N-BK7zz", 3).front() == "N-BK7");
+  CHECK(glasses_near("!", 3).empty());
 }
 
 }  // namespace

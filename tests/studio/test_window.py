@@ -31,6 +31,7 @@ class Viewport(StudioTest):
 
     def test_a_light_outside_the_frame_has_a_handle_and_ghosts(self):
         state = self.state_after([["drag", "viewport/light/1", -600, -20, 8]])
+        self.assertIn("frame widths outside", self.widget(state, "viewport/light/1/outside")["value"])
         self.assertLess(state["lights"][0]["at"][0], -0.1)
         handle, viewport = self.widget(state, "viewport/light/1")["rect"], self.widget(state, "viewport")["rect"]
         self.assertGreaterEqual(handle[0], viewport[0])
@@ -72,7 +73,8 @@ class Panels(StudioTest):
         first = self.state_after([])
         brightest = first["ghosts"][0]
         u, v = brightest["centre"][0] / 320, brightest["centre"][1] / 180
-        lines = [["click", f"ghosts/{brightest['ghost']}"], ["wait"], ["state", "list.json"], ["key", "s"], ["wait"], ["state", "solo.json"],
+        lines = [["click", f"ghosts/{brightest['ghost']}"], ["wait"], ["state", "list.json"], ["key", "s"], ["wait"],
+                 ["move", "viewport/picture", 0.5, 0.5], ["frames", 2], ["state", "solo.json"],
                  ["key", "a"], ["key", "m"], ["wait"], ["state", "muted.json"], ["key", "]"]]
         if 0.02 < u < 0.98 and 0.02 < v < 0.98:
             lines += [["click", "viewport/picture", u, v]]
@@ -83,6 +85,8 @@ class Panels(StudioTest):
         self.assertIn(f"surface {j}, then at {i}", self.widget(chosen, "section/legend")["value"])
         self.assertEqual(self.state("solo.json")["values"]["select"], [f"list:{brightest['ghost']}"])
         self.assertEqual(self.state("solo.json")["shown"]["ghosts"], 1)
+        probe = self.widget(self.state("solo.json"), "status/probe")["value"]
+        self.assertTrue(probe.endswith(("no ghost here", f"ghost {brightest['ghost']}")), probe)
         self.assertTrue(self.state("muted.json")["values"]["ghost"][0].startswith(f"{brightest['ghost']}:gain=0,"))
         self.assertNotEqual(state["selection"]["ghost"], "")
 
@@ -107,20 +111,35 @@ class Panels(StudioTest):
         self.assertFalse(state["edited"])
 
     def test_a_coating_is_typed_for_the_selected_surface(self):
-        lines = [["key", "f4"], ["frames", 3], ["click", "coatings/3"], ["click", "coatings/text"], ["type", "v-coat:480"], ["key", "enter"]]
-        state = self.state_after(lines)
+        lines = [["key", "f4"], ["frames", 3], ["click", "coatings/3"], ["click", "coatings/text"], ["type", "v-coat:480"], ["key", "enter"], ["wait"],
+                 ["state", "typed.json"], ["click", "coatings/design"], ["frames", 3], ["click", "coatings/design/none"]]
+        bare = self.state_after(lines)
+        state = self.state("typed.json")
+        for each in (bare, state):
+            plot, axes = (self.widget(each, f"coatings/{name}")["rect"] for name in ("plot", "axes"))
+            self.assertGreater(axes[2] - axes[0], 0.6 * (plot[2] - plot[0]))
+            self.assertGreater(plot[1], self.widget(each, "coatings/text")["rect"][3])
+        self.assertEqual(self.widget(state, "coatings/design")["value"], "v-coat")
+        self.assertEqual(bare["values"]["coating-at"], ["3:none"])
         self.assertEqual(state["values"]["coating-at"], ["3:v-coat:480"])
         self.assertEqual(state["history"]["steps"][-1], "coat surface 3")
 
     def test_parameters_are_the_tables_and_come_back_to_their_defaults(self):
         lines = [["key", "f7"], ["frames", 3], ["click", "parameters/filter"], ["type", "starburst"], ["frames", 2],
-                 ["click", "parameters/starburst", 0.02, 0.5], ["wait"], ["state", "set.json"], ["click", "parameters/starburst/reset"]]
+                 ["click", "parameters/starburst", 0.02, 0.5], ["wait"], ["state", "set.json"], ["click", "parameters/starburst/reset"],
+                 ["click", "toolbar/fnumber"], ["frames", 2], ["type", "11"], ["key", "enter"]]
         state = self.state_after(lines)
+        ids = [w["id"] for w in self.state("set.json")["widgets"]]
+        self.assertIn("parameters/group/Rendering", ids)
+        self.assertNotIn("parameters/group/Output", ids)
+        self.assertEqual(state["values"]["fnumber"], ["11"])
+        self.assertEqual(state["history"]["steps"][-1], "set fnumber")
         self.assertEqual(self.state("set.json")["values"]["starburst"], ["on"])
         self.assertNotIn("starburst", state["values"])
 
     def test_help_lists_keys_and_tab_hides_panels(self):
-        lines = [["key", "f1"], ["frames", 2], ["state", "help.json"], ["key", "escape"], ["key", "tab"]]
+        lines = [["key", "f1"], ["frames", 2], ["state", "help.json"], ["key", "escape"], ["click", "ghosts/filter"], ["frames", 2],
+                 ["key", "escape"], ["key", "escape"], ["frames", 2], ["key", "tab"]]
         state = self.state_after(lines)
         self.assertTrue(self.state("help.json")["help"])
         self.assertFalse(state["help"])
@@ -137,6 +156,8 @@ class Panels(StudioTest):
                 with self.subTest(scale=scale, panel=key):
                     fixed = [w["id"] for w in self.state(f"{key}.json")["widgets"] if w["clipped"] and w["id"].startswith(bars)]
                     self.assertEqual(fixed, [])
+            cut = [w["id"] for w in self.state("f3.json")["widgets"] if w["cut"] and w["id"].startswith("prescription/")]
+            self.assertEqual(cut, [])
 
 
 class Redrawing(StudioTest):

@@ -58,6 +58,14 @@ bool is_solo(const Document& document, const Ghost& ghost) {
 
 bool has_solo(const Document& document) { return !solo_ghosts(document).empty(); }
 
+bool is_drawn(const Document& document, const Ghost& ghost) {
+  if (is_muted(document, ghost)) return false;
+  const auto selection = params::parse_selection(document.text("select"));
+  if (!selection) return true;
+  if (const auto* surface = std::get_if<SelectSurface>(&*selection)) return ghost.reflects_at(surface->surface);
+  return !has_solo(document) || is_solo(document, ghost);
+}
+
 Result<Document> with_mute(Document document, const Ghost& ghost, bool muted) {
   return with_gain(std::move(document), ghost, muted ? 0.0 : 1.0);
 }

@@ -14,6 +14,8 @@ namespace contrejour::studio {
 [[nodiscard]] bool is_muted(const Document& document, const Ghost& ghost);
 [[nodiscard]] bool is_solo(const Document& document, const Ghost& ghost);
 [[nodiscard]] bool has_solo(const Document& document);
+// It is neither muted nor hidden by others that are solo, nor by the surface to which the document limits ghosts.
+[[nodiscard]] bool is_drawn(const Document& document, const Ghost& ghost);
 // The adjustment of this ghost alone, or one that changes nothing.
 [[nodiscard]] GhostAdjustment adjustment_of(const Document& document, const Ghost& ghost);
 

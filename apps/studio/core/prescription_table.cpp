@@ -2,11 +2,14 @@
 #include "studio/core/prescription_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "contrejour/expert/glass_text.h"
 #include "contrejour/expert/parameter_text.h"
@@ -16,8 +19,19 @@ namespace {
 
 bool is_stop(const Surface& surface) { return surface.kind == SurfaceKind::Stop; }
 
+// The words of a message that are keys of lens files.
+std::string in_words(std::string message) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kWords = {
+      {{"semi_diameter_mm", "the semi-diameter"}, {"thickness_mm", "the thickness"}, {"radius_mm", "the radius"}}};
+  for (const auto& [key, word] : kWords)
+    for (std::size_t at = message.find(key); at != std::string::npos; at = message.find(key, at + word.size()))
+      message.replace(at, key.size(), word);
+  return message;
+}
+
+// The lens is no longer that of its file, so errors name no line there.
 Result<Prescription> checked(Prescription lens) {
-  if (auto ok = validate(lens); !ok) return tl::unexpected(ok.error());
+  if (auto ok = validate(lens); !ok) return failure(ok.error().code, in_words(ok.error().message));
   return lens;
 }
 
@@ -62,10 +76,22 @@ Result<void> set_radius(Surface& surface, std::string_view text) {
   return {};
 }
 
+// "no glass is called 'BANANA'; near it: ...", for a text that the catalogue knows nothing like.
+std::string unknown_glass(std::string_view text) {
+  const auto near = glasses_near(text, 5);
+  return near.empty()
+             ? fmt::format("no glass is called '{}'; type its first letters to see those of the catalogue", text)
+             : fmt::format("no glass is called '{}'; those that begin like it are {}, \u2026", text,
+                           fmt::join(near, ", "));
+}
+
 // The stop has the medium in front of it on both sides, so it follows.
 Result<void> set_glass(Prescription& lens, std::size_t row, std::string_view text) {
   const auto glass = text.empty() ? Result<Glass>(air()) : params::parse_glass(text);
-  if (!glass) return tl::unexpected(glass.error());
+  if (!glass) {
+    const bool names_command = glass.error().message.find("glass list") != std::string::npos;
+    return names_command ? failure(ErrorCode::InvalidArgument, unknown_glass(text)) : tl::unexpected(glass.error());
+  }
   lens.surfaces[row].glass_after = *glass;
   for (std::size_t k = row + 1; k < lens.surfaces.size() && is_stop(lens.surfaces[k]); ++k)
     lens.surfaces[k].glass_after = *glass;
@@ -237,6 +263,13 @@ std::vector<std::string> glasses_like(std::string_view text, std::size_t count) 
       names.push_back(std::move(name));
   }
   return names;
+}
+
+std::vector<std::string> glasses_near(std::string_view text, std::size_t count) {
+  std::vector<std::string> near;
+  for (std::size_t length = text.size(); length > 0 && near.empty(); --length)
+    near = glasses_like(text.substr(0, length), count);
+  return near;
 }
 
 }  // namespace contrejour::studio

@@ -36,5 +36,7 @@ inline constexpr std::array<LensColumn, 6> kLensColumns = {LensColumn::Radius, L
 
 // Names of bundled glasses that begin with this text, in any case, without repetition.
 [[nodiscard]] std::vector<std::string> glasses_like(std::string_view text, std::size_t count);
+// The same, or those that begin with the longest beginning of the text that any name has.
+[[nodiscard]] std::vector<std::string> glasses_near(std::string_view text, std::size_t count);
 
 }  // namespace contrejour::studio

@@ -33,31 +33,54 @@ std::string name_of(const Coating& coating) { return coating.name.empty() ? desc
 
 bool reflects(const SurfaceState& s) { return s.kind == SurfaceKind::Refracting && !(s.before == s.after); }
 
+constexpr float kNameAt = 118;  // in a row of the list
+
+void draw_list_row(Ui& ui, int number, const SurfaceState& surface) {
+  const std::string id = fmt::format("coatings/{}", number), name = name_of(surface.coating);
+  const Rgb colour = reflected_rgb(surface);
+  const double brightest = std::fmax(1e-9, std::fmax(colour[0], std::fmax(colour[1], colour[2])));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushID(id.c_str());
+  if (ImGui::Selectable("##surface", ui.studio.selection.surface == number)) ui.studio.selection.surface = number;
+  ImGui::PopID();
+  const std::string shown = fitted(name, ImGui::GetContentRegionMax().x - scaled(kNameAt + 4));
+  ui.registry.record(id, shown);
+  const std::string share = fmt::format("{:.2f} %", 100 * mean_reflectance(surface));
+  tip(fmt::format("{}\nIt reflects {} of the light at normal incidence, the mean of {:.0f} to {:.0f} nm. The patch is "
+                  "the colour of its reflection of white light.",
+                  name, share, kFirstCurve_nm, kLastCurve_nm)
+          .c_str());
+  bring_into_sight(ui, number, ui.state.coating_in_sight);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetTextLineHeight();
+  list.AddRectFilled({at.x + scaled(26), at.y + scaled(1)}, {at.x + scaled(44), at.y + line - scaled(1)},
+                     display_colour(colour, brightest), scaled(3));
+  list.AddText(at, colours::text(), fmt::format("{}", number).c_str());
+  list.AddText({at.x + scaled(54), at.y}, colours::text(), share.c_str());
+  list.AddText({at.x + scaled(kNameAt), at.y}, colours::dim(), shown.c_str());
+}
+
 void draw_list(Ui& ui) {
-  ImGui::Dummy({1, scaled(1)});
+  ImGui::TextDisabled("Surface");
+  ImGui::SameLine(scaled(54));
+  ImGui::TextDisabled("reflects");
+  tip("Of the light at normal incidence, the mean over the wavelengths of the plot");
+  ImGui::SameLine(scaled(kNameAt));
+  ImGui::TextDisabled("with the coating");
+  ImGui::BeginChild("##rows");
   const auto& surfaces = ui.studio.lens().surfaces;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    if (!reflects(surfaces[k])) continue;
-    const int number = static_cast<int>(k) + 1;
-    const std::string id = fmt::format("coatings/{}", number);
-    const Rgb colour = reflected_rgb(surfaces[k]);
-    const double brightest = std::fmax(1e-9, std::fmax(colour[0], std::fmax(colour[1], colour[2])));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::PushID(id.c_str());
-    if (ImGui::Selectable("##surface", ui.studio.selection.surface == number)) ui.studio.selection.surface = number;
-    ImGui::PopID();
-    ui.registry.record(id, name_of(surfaces[k].coating));
-    bring_into_sight(ui, number, ui.state.coating_in_sight);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float line = ImGui::GetTextLineHeight();
-    list.AddRectFilled({at.x + scaled(26), at.y + scaled(1)}, {at.x + scaled(44), at.y + line - scaled(1)},
-                       display_colour(colour, brightest), scaled(3));
-    list.AddText(at, colours::kText, fmt::format("{}", number).c_str());
-    list.AddText({at.x + scaled(54), at.y}, colours::kText,
-                 fmt::format("{:.2f} %", 100 * mean_reflectance(surfaces[k])).c_str());
-    ImGui::SameLine(scaled(112));
-    fitting_text(name_of(surfaces[k].coating), ImGui::GetContentRegionMax().x - scaled(116), colours::kDim);
-  }
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (reflects(surfaces[k])) draw_list_row(ui, static_cast<int>(k) + 1, surfaces[k]);
+  ImGui::EndChild();
+}
+
+// So wide that the longest name fits, if the plot then still has half of the panel.
+float list_width(const Ui& ui) {
+  float longest = text_width("with the coating");
+  for (const SurfaceState& s : ui.studio.lens().surfaces)
+    if (reflects(s)) longest = std::max(longest, text_width(name_of(s.coating)));
+  return std::min(longest + scaled(kNameAt + 8) + ImGui::GetStyle().ScrollbarSize,
+                  0.5F * ImGui::GetContentRegionAvail().x);
 }
 
 void draw_axes(ImDrawList& list, ImVec2 min, ImVec2 max, double top) {
@@ -66,16 +89,17 @@ void draw_axes(ImDrawList& list, ImVec2 min, ImVec2 max, double top) {
     list.AddLine({min.x, y}, {max.x, y}, IM_COL32(255, 255, 255, percent == 0 ? 60 : 20));
     const std::string text = fmt::format("{:.3g} %", 100 * top * percent / 4);
     const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
-    list.AddText(small_font(), small_font()->FontSize, {min.x - size.x - scaled(6), y - 0.5F * size.y}, colours::kDim,
+    list.AddText(small_font(), small_font()->FontSize, {min.x - size.x - scaled(6), y - 0.5F * size.y}, colours::dim(),
                  text.c_str());
   }
-  for (int lambda = 400; lambda <= 700; lambda += 50) {
+  const int step = max.x - min.x < 7.5F * text_width("400  nm") ? 100 : 50;
+  for (int lambda = 400; lambda <= 700; lambda += step) {
     const float x =
         min.x + (max.x - min.x) * static_cast<float>((lambda - kFirstCurve_nm) / (kLastCurve_nm - kFirstCurve_nm));
     list.AddLine({x, min.y}, {x, max.y}, IM_COL32(255, 255, 255, 16));
-    const std::string text = fmt::format("{}", lambda);
+    const std::string text = fmt::format("{}{}", lambda, lambda == 700 ? " nm" : "");
     const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
-    list.AddText(small_font(), small_font()->FontSize, {x - 0.5F * size.x, max.y + scaled(3)}, colours::kDim,
+    list.AddText(small_font(), small_font()->FontSize, {x - 0.5F * size.x, max.y + scaled(3)}, colours::dim(),
                  text.c_str());
   }
 }
@@ -96,24 +120,31 @@ double rounded_up(double value) {
   return 1.0;
 }
 
+// Above the plot, so that no curve crosses it. right: its upper right corner.
+void draw_legend_of_angles(ImDrawList& list, ImVec2 right) {
+  float x = right.x;
+  for (std::size_t a = kCurveAngles_deg.size(); a-- > 0;) {
+    const std::string text = fmt::format("{:.0f}\u00b0{}", kCurveAngles_deg[a], a == 0 ? " incidence" : "");
+    x -= text_width(text);
+    list.AddText({x, right.y}, kAngleColours[a], text.c_str());
+    x -= scaled(18);
+  }
+}
+
 void draw_plot(Ui& ui, const SurfaceState& surface) {
   const ImVec2 start = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
-  const ImVec2 min = {start.x + scaled(52), start.y + scaled(8)};
+  const ImVec2 min = {start.x + scaled(52), start.y + ImGui::GetTextLineHeight() + scaled(4)};
   const ImVec2 max = {start.x + room.x - scaled(14), start.y + room.y - scaled(24)};
   ImGui::Dummy(room);
   ui.registry.record("coatings/plot");
   if (max.x - min.x < 20 || max.y - min.y < 20) return;
+  ui.registry.record("coatings/axes", min, max);
   const ReflectanceCurves curves = reflectance_curves(surface);
   const double top = rounded_up(curves.largest);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_axes(list, min, max, top);
   draw_curves(list, curves, min, max, top);
-  float x = max.x - scaled(150);
-  for (std::size_t a = 0; a < kCurveAngles_deg.size(); ++a) {
-    const std::string text = fmt::format("{:.0f}\u00b0", kCurveAngles_deg[a]);
-    list.AddText({x, min.y}, kAngleColours[a], text.c_str());
-    x += scaled(50);
-  }
+  draw_legend_of_angles(list, {max.x, start.y});
 }
 
 bool set_coating(Ui& ui, int surface, const std::string& coating, const std::string& key) {
@@ -121,38 +152,50 @@ bool set_coating(Ui& ui, int surface, const std::string& coating, const std::str
                         [&](const Document& d) { return with_surface_coating(d, surface, coating); });
 }
 
-void draw_coating_controls(Ui& ui, const SurfaceState& surface) {
-  const int number = ui.studio.selection.surface;
-  ImGui::AlignTextToFramePadding();
-  ImGui::Text("Surface %d", number);
-  ImGui::SameLine();
-  const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x;
-  ImGui::SetNextItemWidth(std::min(scaled(180), 0.34F * room));
-  const std::string current = name_of(surface.coating);
-  ui.registry.record("coatings/label");
-  if (ImGui::BeginCombo("##design", current.c_str())) {
+std::string design_of(const std::string& coating) { return coating.substr(0, coating.find(':')); }
+
+// The kind of coating; its wavelength and its other numbers have fields of their own.
+void draw_design_choice(Ui& ui, int number, const std::string& current, float width) {
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::BeginCombo("##design", fitted(current, width - 2.2F * ImGui::GetFrameHeight()).c_str())) {
     for (const char* design : kDesigns) {
-      if (ImGui::Selectable(design)) set_coating(ui, number, design, "");
+      if (ImGui::Selectable(design, current == design)) set_coating(ui, number, design, "");
       ui.registry.record(fmt::format("coatings/design/{}", design));
     }
     ImGui::EndCombo();
   }
   ui.registry.record("coatings/design", current);
+  tip("The kind of coating");
+}
+
+void draw_coating_controls(Ui& ui, const SurfaceState& surface) {
+  const int number = ui.studio.selection.surface;
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("Surface %d", number);
+  ui.registry.record("coatings/label");
   ImGui::SameLine();
+  const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x - 2 * gap;
+  const bool is_narrow = room < scaled(380);  // the fields then have two lines
   std::string typed = coating_of_surface(ui.studio.document(), number);
-  if (text_field(ui, "coatings/text", typed, std::min(scaled(190), 0.36F * room), "v-coat:550") && !typed.empty())
-    if (!set_coating(ui, number, typed, "")) refuse_text(ui, "coatings/text", typed, ui.studio.problem());
-  ImGui::SameLine();
   const auto wavelength = design_wavelength_nm(ui.studio.document(), number);
+  draw_design_choice(ui, number, design_of(typed.empty() ? name_of(surface.coating) : typed),
+                     is_narrow ? ImGui::GetContentRegionAvail().x : std::min(scaled(190), 0.36F * room));
+  if (!is_narrow) ImGui::SameLine();
+  const float half = 0.5F * (ImGui::GetContentRegionAvail().x - gap);
+  if (text_field(ui, "coatings/text", typed, is_narrow ? half : std::min(scaled(190), 0.34F * room), "v-coat:550") &&
+      !typed.empty())
+    if (!set_coating(ui, number, typed, "")) refuse_text(ui, "coatings/text", typed, ui.studio.problem());
   if (!wavelength) return;
+  ImGui::SameLine();
   auto lambda = static_cast<float>(*wavelength);
-  ImGui::SetNextItemWidth(std::min(scaled(170), 0.3F * room));
+  ImGui::SetNextItemWidth(is_narrow ? half : std::min(scaled(170), 0.3F * room));
   if (ImGui::SliderFloat("##lambda", &lambda, 380, 760, "%.0f nm"))
     set_coating(ui, number,
                 with_design_wavelength(coating_of_surface(ui.studio.document(), number), static_cast<double>(lambda)),
                 "coatings/lambda");
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
   ui.registry.record("coatings/lambda", fmt::format("{:.1f}", lambda));
+  tip("The wavelength that the coating is made for");
 }
 
 void select_first_glass(Ui& ui) {
@@ -170,7 +213,7 @@ void select_first_glass(Ui& ui) {
 
 void draw_coatings_panel(Ui& ui) {
   select_first_glass(ui);
-  ImGui::BeginChild("##surfaces", {std::min(scaled(330), 0.38F * ImGui::GetContentRegionAvail().x), 0});
+  ImGui::BeginChild("##surfaces", {list_width(ui), 0});
   draw_list(ui);
   ImGui::EndChild();
   ImGui::SameLine();

@@ -79,7 +79,7 @@ void draw_snapshot(Ui& ui, std::size_t index, TextureSet& textures, float height
       textures.get(fmt::format("snapshot/{}", index), stamp, small.width, small.height, small.rgba);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture.id(), at, end);
-  list.AddRect(at, end, chosen ? colours::kAccent : colours::kLine, 0, 0, scaled(chosen ? 2 : 1));
+  list.AddRect(at, end, chosen ? colours::kAccent : colours::line(), 0, 0, scaled(chosen ? 2 : 1));
   ImGui::TextUnformatted(snapshot.name.c_str());
   draw_snapshot_buttons(ui, index);
   ImGui::EndGroup();
@@ -105,7 +105,7 @@ void draw_compare_panel(Ui& ui, TextureSet& textures) {
   ImGui::SameLine(0, scaled(18));
   draw_modes(ui);
   draw_amount(ui);
-  fitting_text(figures_text(ui), ImGui::GetContentRegionAvail().x, colours::kDim);
+  fitting_text(figures_text(ui), ImGui::GetContentRegionAvail().x, colours::dim());
   ui.registry.record("compare/figures", figures_text(ui));
   ImGui::BeginChild("##snapshots", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
   const float below = 2 * ImGui::GetTextLineHeightWithSpacing() + scaled(18);

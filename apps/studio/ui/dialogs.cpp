@@ -9,6 +9,7 @@
 #include <imgui_stdlib.h>
 
 #include "contrejour/expert/flare_source.h"
+#include "studio/core/file_choice.h"
 #include "studio/core/plate_frames.h"
 #include "studio/ui/file_dialog.h"
 #include "studio/ui/panels.h"
@@ -17,47 +18,9 @@
 namespace contrejour::studio {
 namespace {
 
-constexpr std::size_t kMostEntries = 400;
-
-struct FolderEntry {
-  std::string name;
-  bool is_folder = false;
-};
-
-// Folders first, then files, by name; those that cannot be read are left out.
-std::vector<FolderEntry> entries_of(const std::filesystem::path& folder) {
-  std::vector<FolderEntry> entries;
-  std::error_code code;
-  for (auto at = std::filesystem::directory_iterator(folder, code);
-       !code && at != std::filesystem::directory_iterator(); at.increment(code)) {
-    const std::string name = at->path().filename().string();
-    if (!name.starts_with(".") && entries.size() < kMostEntries) entries.push_back({name, at->is_directory(code)});
-  }
-  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
-    return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name;
-  });
-  return entries;
-}
-
-std::filesystem::path folder_of(const std::string& path) {
-  std::error_code code;
-  if (!path.empty() && std::filesystem::is_directory(path, code)) return path;
-  const auto parent = std::filesystem::path(path).parent_path();
-  return parent.empty() ? std::filesystem::current_path(code) : parent;
-}
-
-void draw_folder(Ui& ui) {
-  const auto folder = folder_of(ui.state.path);
-  ImGui::TextDisabled("%s", folder.string().c_str());
-  const float room = ImGui::GetIO().DisplaySize.y - scaled(330);  // what is above and below it in the largest dialog
-  ImGui::BeginChild("##folder", {scaled(560), std::clamp(room, scaled(80), scaled(260))}, true,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding);
-  if (ImGui::Selectable("..")) ui.state.path = folder.parent_path().string() + "/";
-  for (const FolderEntry& entry : entries_of(folder))
-    if (ImGui::Selectable((entry.name + (entry.is_folder ? "/" : "")).c_str(), false,
-                          ImGuiSelectableFlags_DontClosePopups))
-      ui.state.path = (folder / entry.name).string() + (entry.is_folder ? "/" : "");
-  ImGui::EndChild();
+bool is_bundled(const std::string& name) {
+  const auto lenses = bundled_lenses();
+  return std::any_of(lenses.begin(), lenses.end(), [&](const BundledLens& lens) { return lens.name == name; });
 }
 
 bool open_file(Ui& ui) {
@@ -67,7 +30,12 @@ bool open_file(Ui& ui) {
     ui.state.bottom_was_chosen = true;
     return true;
   }
-  return is_session(ui.state.path) ? ui.studio.open_session(ui.state.path) : ui.studio.open_lens(ui.state.path);
+  if (is_session(ui.state.path)) return ui.studio.open_session(ui.state.path);
+  // The name of a bundled lens may be typed behind the folder that the dialog offers.
+  const std::filesystem::path path(ui.state.path);
+  std::error_code code;
+  const bool is_name = !std::filesystem::exists(path, code) && is_bundled(path.filename().string());
+  return ui.studio.open_lens(is_name ? path.filename().string() : ui.state.path);
 }
 
 // A file in the folder stands for it.
@@ -173,12 +141,10 @@ const char* title_of(Dialog dialog) {
 
 void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& act,
                       const std::function<bool()>& replaces) {
-  ImGui::SetNextItemWidth(scaled(560));
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##path", &ui.state.path, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.registry.record("dialog/path", ui.state.path);
+  const Dialog dialog = ui.state.dialog;
+  const bool entered = draw_path_field(ui);
   draw_folder(ui);
-  if (!ui.studio.problem().empty()) {
+  if (ui.state.dialog_has_failed && !ui.studio.problem().empty()) {
     ImGui::PushTextWrapPos(scaled(560));
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::kBad), "%s", ui.studio.problem().c_str());
     ImGui::PopTextWrapPos();
@@ -189,13 +155,16 @@ void draw_file_dialog(Ui& ui, const char* action, const std::function<bool()>& a
   const bool acts = button(ui, "dialog/accept", was_asked ? "Replace" : action, nullptr, {scaled(110), 0}) || entered;
   ImGui::SameLine();
   if (button(ui, "dialog/cancel", "Cancel", nullptr, {scaled(110), 0})) ImGui::CloseCurrentPopup();
-  if (!acts || ui.state.path.empty()) return;
+  if (!acts || ui.state.path.empty() || lists_folder_typed(ui)) return;
   if (!was_asked && replaces && replaces()) {
     ui.state.asked_path = ui.state.path;
     return;
   }
   ui.state.asked_path.clear();
-  if (act()) ImGui::CloseCurrentPopup();
+  ui.state.dialog_has_failed = !act();
+  if (ui.state.dialog_has_failed) return;
+  remember_folder(ui, dialog);
+  ImGui::CloseCurrentPopup();
 }
 
 void draw_dialogs(Ui& ui) {
@@ -206,10 +175,13 @@ void draw_dialogs(Ui& ui) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5F, 0.5F});
   const Dialog shown = ui.state.dialog;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   if (!ImGui::BeginPopupModal(title.c_str(), nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove)) {
+    ImGui::PopStyleVar();
     ui.state.dialog = Dialog::None;
     return;
   }
+  ImGui::PopStyleVar();
   if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   draw_content(ui);
   ImGui::EndPopup();

@@ -71,8 +71,8 @@ void draw_commands(Ui& ui) {
   draw_command(ui, "The command line that makes the same:", "command", of_values);
   draw_command(ui, of_values.empty() ? "The command line that makes the same:" : "Or from the saved session:",
                "session-command", of_session);
-  if (!is_saved && ui.state.export_kind != ExportKind::Report)
-    ImGui::TextDisabled("Save the session to have a command line that needs no other file.");
+  if (!is_saved && of_values.empty() && ui.state.export_kind != ExportKind::Report)
+    ImGui::TextDisabled("Save the session first to have a command line that makes the same.");
 }
 
 }  // namespace

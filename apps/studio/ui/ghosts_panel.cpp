@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ghosts of the selected light: sorted, alone or muted, selected.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "contrejour/expert/parameter_text.h"
 #include "studio/core/ghost_edits.h"
 #include "studio/core/ghost_order.h"
 #include "studio/ui/panels.h"
@@ -39,12 +43,12 @@ void draw_summary(const Ui& ui) {
     return flux;
   };
   const double all = sum(figures.size());
-  const std::string text =
-      figures.empty() ? "measuring\u2026"
-                      : fmt::format("{} ghosts carry {:.2f} % of the light; the ten brightest {:.0f} % of that",
-                                    figures.size(), 100 * all, all > 0 ? 100 * sum(kThatMatter) / all : 0.0);
+  const std::string text = figures.empty()
+                               ? "measuring\u2026"
+                               : fmt::format("{} ghosts, {:.2f} % of the light; ten carry {:.0f} % of it",
+                                             figures.size(), 100 * all, all > 0 ? 100 * sum(kThatMatter) / all : 0.0);
   fitting_text(text, ImGui::GetContentRegionAvail().x,
-               ui.studio.figures_are_current() ? colours::kDim : colours::kAccentDim);
+               ui.studio.figures_are_current() ? colours::dim() : colours::kAccentDim);
 }
 
 void draw_ghost_controls(Ui& ui) {
@@ -64,7 +68,7 @@ void draw_ghost_controls(Ui& ui) {
   tip("By visibility: mean brightness times diameter, inside the frame. By flux: all light of the ghost. By peak: its "
       "brightest pixel.");
   ImGui::SameLine();
-  if (button(ui, "ghosts/all", "Show all", "No ghost alone, none muted, all at their own gain (A)"))
+  if (button(ui, "ghosts/all", "Show all", "No ghost solo, none muted, all at their own gain (A)"))
     ui.studio.edit("show all ghosts", "", [](const Document& d) { return Result<Document>(with_all_ghosts(d)); });
 }
 
@@ -72,11 +76,11 @@ void draw_switches(Ui& ui, const Ghost& ghost, const std::string& id) {
   const Document& document = ui.studio.document();
   const bool solo = is_solo(document, ghost), muted = is_muted(document, ghost);
   const std::string name = ghost_name(ghost);
-  if (toggle(ui, id + "/solo", "S", solo, colours::kAccent, "Alone: only ghosts that are alone are drawn (S)"))
+  if (toggle(ui, id + "/solo", "S", solo, colours::kAccent, "Solo: every ghost that is not solo is hidden (S)"))
     ui.studio.edit((solo ? "end solo of ghost " : "solo ghost ") + name, "",
                    [&](const Document& d) { return with_solo(d, ghost, !solo); });
   ImGui::SameLine(0, scaled(3));
-  if (toggle(ui, id + "/mute", "M", muted, colours::kBad, "Muted: not drawn (M)"))
+  if (toggle(ui, id + "/mute", "M", muted, colours::kBad, "Mute: this ghost is hidden (M)"))
     ui.studio.edit((muted ? "unmute ghost " : "mute ghost ") + name, "",
                    [&](const Document& d) { return with_mute(d, ghost, !muted); });
 }
@@ -93,14 +97,61 @@ void draw_gain(Ui& ui, const Ghost& ghost, const std::string& id) {
   ImGui::PopStyleVar();
   ImGui::PopID();
   ui.registry.record(id + "/gain", fmt::format("{}", gain));
-  tip("Gain; 1 is physically right. Drag, or Ctrl+click to type.");
+  tip("Gain; 1 is physically right. Drag, or click to type.");
 }
 
-void draw_ghost_row(Ui& ui, std::size_t rank, const GhostFigures& figures) {
+constexpr double kLeastFlux_percent = 1e-4;  // smaller figures would need powers of ten
+
+std::string flux_text(const GhostFigures& figures) {
+  const double percent = 100 * figures.relative_flux;
+  return percent < kLeastFlux_percent ? "<0.0001" : fmt::format("{:.4f}", percent);
+}
+
+double largest_peak(const Ui& ui) {
+  double peak = 0;
+  for (const GhostFigures& f : ui.studio.figures()) peak = std::fmax(peak, f.peak_irradiance);
+  return peak;
+}
+
+std::string peak_text(const GhostFigures& figures, double largest) {
+  return figures.peak_irradiance > 0 ? fmt::format("{:.1f}", std::log2(figures.peak_irradiance / largest)) : "\u2013";
+}
+
+std::string size_text(const Ui& ui, const GhostFigures& figures) {
+  const double size = std::fmax(figures.size_px.x, figures.size_px.y);
+  const auto frame = params::parse_size(ui.studio.document().text("size"));
+  const double width = frame ? frame->width : 1920;
+  if (size > 9.95 * width) return ">10 frames";
+  if (size > width) return fmt::format("{:.1f} frames", size / width);
+  return fmt::format("{:.0f}{}", size, figures.in_focus ? " sharp" : "");
+}
+
+void draw_ghost_figures(const Ui& ui, const GhostFigures& figures, double largest) {
+  const std::string all = fmt::format(
+      "{:.3g} % of the light; its brightest pixel has {:.3g} of the irradiance at the lens; {:.0f} x {:.0f} px{}",
+      100 * figures.relative_flux, figures.peak_irradiance, figures.size_px.x, figures.size_px.y,
+      figures.in_focus ? "; sharp on the axis" : "");
+  for (const std::string& text : {flux_text(figures), peak_text(figures, largest), size_text(ui, figures)}) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+    tip(all.c_str());
+  }
+}
+
+// Its rays miss the sensor: it has no figures.
+void draw_absence() {
+  for (int column = 0; column < 3; ++column) {
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("\u2013");
+    tip("None of its light reaches the picture");
+  }
+}
+
+void draw_ghost_row(Ui& ui, std::size_t rank, const GhostFigures& figures, double largest) {
   const std::string id = "ghosts/" + ghost_name(figures.ghost);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const bool selected = ui.studio.selection.ghost == figures.ghost;
+  const bool selected = ui.studio.selection.ghost == figures.ghost, is_there = figures.relative_flux > 0;
   ImGui::PushID(id.c_str());
   if (ImGui::Selectable(fmt::format("{}", rank + 1).c_str(), selected,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
@@ -110,33 +161,57 @@ void draw_ghost_row(Ui& ui, std::size_t rank, const GhostFigures& figures) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(ghost_name(figures.ghost).c_str());
   ImGui::TableNextColumn();
-  const double brightest = std::fmax(1e-30, std::fmax(figures.rgb[0], std::fmax(figures.rgb[1], figures.rgb[2])));
-  colour_patch(display_colour(figures.rgb, brightest), scaled(18));
-  ImGui::TableNextColumn();
-  ImGui::Text("%.2g", 100 * figures.relative_flux);
-  ImGui::TableNextColumn();
-  ImGui::Text("%.2g", figures.peak_irradiance);
-  ImGui::TableNextColumn();
-  ImGui::Text("%.0f%s", std::fmax(figures.size_px.x, figures.size_px.y), figures.in_focus ? " f" : "");
+  const double brightest = std::fmax(figures.rgb[0], std::fmax(figures.rgb[1], figures.rgb[2]));
+  if (is_there && brightest > 0) colour_patch(display_colour(figures.rgb, brightest), scaled(14));
+  if (is_there)
+    draw_ghost_figures(ui, figures, largest);
+  else
+    draw_absence();
   ImGui::TableNextColumn();
   draw_switches(ui, figures.ghost, id);
   ImGui::TableNextColumn();
   draw_gain(ui, figures.ghost, id);
 }
 
-void set_up_ghost_columns() {
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, scaled(26));
-  ImGui::TableSetupColumn("Ghost", ImGuiTableColumnFlags_WidthFixed, scaled(52));
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, scaled(18));
-  ImGui::TableSetupColumn("Flux %", ImGuiTableColumnFlags_WidthStretch, 1);
-  const bool is_narrow = ImGui::GetContentRegionAvail().x < scaled(400);
-  ImGui::TableSetupColumn("Peak", ImGuiTableColumnFlags_WidthStretch | (is_narrow ? ImGuiTableColumnFlags_Disabled : 0),
-                          1);
-  ImGui::TableSetupColumn("Size px", ImGuiTableColumnFlags_WidthStretch, 0.9F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, scaled(44));
-  ImGui::TableSetupColumn("Gain", ImGuiTableColumnFlags_WidthFixed, scaled(46));
-  ImGui::TableHeadersRow();
+// Columns are as wide as their texts; where the panel is narrower, it scrolls.
+void set_up_ghost_columns(const Ui& ui) {
+  const float most = static_cast<float>(ui.studio.figures().size());
+  const std::array<std::pair<const char*, float>, 8> columns = {
+      {{"#", text_width(most > 99 ? "000" : "00")},
+       {"Ghost", std::max(text_width("Ghost"), text_width("00-00"))},
+       {"", scaled(14)},
+       {"Flux %", text_width("<0.0001")},
+       {"Peak", std::max(text_width("Peak"), text_width("-00.0"))},
+       {"Size px", std::max(text_width(">10 frames"), text_width("000 sharp"))},
+       {"", scaled(44)},
+       {"Gain", scaled(42)}}};
+  float all = ImGui::GetStyle().ScrollbarSize;
+  for (const auto& column : columns) all += column.second + 2 * ImGui::GetStyle().CellPadding.x;
+  const float left = std::floor(std::max(0.0F, ImGui::GetContentRegionAvail().x - all) / 4);
+  ImGui::TableSetupScrollFreeze(2, 1);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    ImGui::TableSetupColumn(columns[k].first, ImGuiTableColumnFlags_WidthFixed,
+                            columns[k].second + (k == 1 || (k >= 3 && k <= 5) ? left : 0));
+  heading_row(
+      {"Rank in the order chosen above",
+       "The surfaces where the light reflects, counted from the front: 3-8 reflects at 8, then at 3",
+       "The ghost's colour", "Part of the light that reaches the sensor directly, in per cent",
+       "Stops of the brightest pixel below that of the ghost with the brightest",
+       "The longer side, in pixels, or in widths of the frame. Sharp: in focus on the axis, a small bright spot.",
+       "S: solo, M: mute", "1 is physically right"});
+}
+
+void draw_ghost_table(Ui& ui, ImGuiTableFlags flags) {
+  if (!ImGui::BeginTable("ghosts", 8, flags)) return;
+  set_up_ghost_columns(ui);
+  const auto rows = rows_of(ui);
+  const double largest = largest_peak(ui);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(rows.size()));
+  while (clipper.Step())
+    for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k)
+      draw_ghost_row(ui, static_cast<std::size_t>(k), ui.studio.figures()[rows[static_cast<std::size_t>(k)]], largest);
+  ImGui::EndTable();
 }
 
 }  // namespace
@@ -144,16 +219,12 @@ void set_up_ghost_columns() {
 void draw_ghosts_panel(Ui& ui) {
   draw_ghost_controls(ui);
   draw_summary(ui);
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
-  if (!ImGui::BeginTable("ghosts", 8, flags)) return;
-  set_up_ghost_columns();
-  const auto rows = rows_of(ui);
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(rows.size()));
-  while (clipper.Step())
-    for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k)
-      draw_ghost_row(ui, static_cast<std::size_t>(k), ui.studio.figures()[rows[static_cast<std::size_t>(k)]]);
-  ImGui::EndTable();
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(scaled(4), style.CellPadding.y));
+  draw_ghost_table(ui, flags);
+  ImGui::PopStyleVar();
 }
 
 }  // namespace contrejour::studio

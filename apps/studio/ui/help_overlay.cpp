@@ -28,7 +28,7 @@ void draw_help_overlay(Ui& ui) {
   if (!ui.state.shows_help) return;
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowBgAlpha(0.96F);
+  ImGui::SetNextWindowBgAlpha(1);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(scaled(24), scaled(18)));
@@ -48,7 +48,8 @@ void draw_help_overlay(Ui& ui) {
   ImGui::EndTable();
   ImGui::PopStyleVar();
   ImGui::TextDisabled(
-      "Wheel: zoom.  Right button: pan.  Click: the ghost there.  Ctrl+click a number to type it.  Esc closes this.");
+      "Wheel: zoom.  Right button: pan.  Click: the ghost there.  Click a number to type it (a slider: Ctrl+click).  "
+      "Esc closes this.");
   ui.registry.record("help");
   ImGui::End();
   ImGui::PopStyleVar(3);

@@ -18,7 +18,7 @@ void draw_history_panel(Ui& ui) {
     for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
       const auto step = static_cast<std::size_t>(k);
       const bool is_undone = step > ui.studio.history().position();
-      ImGui::PushStyleColor(ImGuiCol_Text, is_undone ? colours::kDim : colours::kText);
+      ImGui::PushStyleColor(ImGuiCol_Text, is_undone ? colours::dim() : colours::text());
       const std::string label = fmt::format("{}##{}", ui.studio.history().steps()[step].name, k);
       if (ImGui::Selectable(label.c_str(), step == ui.studio.history().position())) ui.studio.go_to_step(step);
       ImGui::PopStyleColor();

@@ -134,6 +134,11 @@ void Interface::draw_panels() {
       "##viewport", {width, height}, false,
       kChildFlags | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNavInputs);
   if (frames_ == 2 && state_.dialog == Dialog::None) ImGui::SetWindowFocus();
+  // Escape hands the keyboard from a panel to the window around it, which would frame the viewport in blue.
+  if (GImGui->NavWindow == ImGui::GetCurrentWindow()->ParentWindow) {
+    ImGui::SetWindowFocus();
+    GImGui->NavDisableHighlight = true;
+  }
   state_.viewport_has_keys = ImGui::IsWindowFocused() || GImGui->NavWindow == nullptr;
   draw_viewport(ui, picture_);
   ImGui::EndChild();

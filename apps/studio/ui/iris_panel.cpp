@@ -51,8 +51,8 @@ void draw_square(Ui& ui, const char* id, const Texture* texture, float side, con
     list.AddImage(texture->id(), at, {at.x + side, at.y + side});
   else
     list.AddRectFilled(at, {at.x + side, at.y + side}, colours::kCanvas);
-  list.AddRect(at, {at.x + side, at.y + side}, colours::kLine);
-  fitting_text(caption, side, colours::kDim);
+  list.AddRect(at, {at.x + side, at.y + side}, colours::line());
+  fitting_text(caption, side, colours::dim());
   ImGui::EndGroup();
 }
 
@@ -68,8 +68,9 @@ void draw_pictures(Ui& ui, TextureSet& textures) {
   };
   const std::size_t light = ui.studio.selection.light + 1;
   draw_square(ui, "iris/pupil", texture_of("pupil", spread.pupil, kPupilSide), side,
-              there ? fmt::format("{:.1f} % open", 100 * spread.open_fraction) : "Pupil");
-  tip("The exit pupil as the light's image sees it: the iris, cut by the rims that vignette it, with dirt");
+              there ? fmt::format("{:.1f} % clear", 100 * spread.open_fraction) : "Pupil");
+  tip("The exit pupil as the light's image sees it: the iris, cut by the rims that vignette it, with dirt. The "
+      "figure is the part of the iris's own opening that neither cuts off.");
   ImGui::SameLine();
   draw_square(ui, "iris/spread", texture_of("spread", spread.spread, kSpreadSide), side,
               !spread.error.empty() ? spread.error : fmt::format("{:.0f} \u00b5m wide", spread.width_um));

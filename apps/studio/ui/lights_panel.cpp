@@ -15,6 +15,8 @@
 namespace contrejour::studio {
 namespace {
 
+constexpr float kLabel = 104;  // width
+
 void light_key(Ui& ui, std::size_t index, LightPart part) {
   ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(22));
   key_button(ui, fmt::format("lights/{}/{}/key", index + 1, name_of(part)), {"", index, part});
@@ -22,6 +24,7 @@ void light_key(Ui& ui, std::size_t index, LightPart part) {
 
 struct LightField {
   const char* name;
+  const char* label;
   const char* hint;
   const char* help;
   std::string LightEntry::* member;
@@ -29,13 +32,13 @@ struct LightField {
 };
 
 void field(Ui& ui, std::size_t index, const LightField& f) {
-  const auto& [name, hint, help, member, part] = f;
+  const auto& [name, label, hint, help, member, part] = f;
   LightEntry light = lights_of(ui.studio.document())[index];
   const std::string id = fmt::format("lights/{}/{}", index + 1, name);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", name);
+  ImGui::TextDisabled("%s", label);
   tip(help);
-  ImGui::SameLine(scaled(92));
+  ImGui::SameLine(scaled(kLabel));
   std::string text = light.*member;
   const bool is_entered = text_field(ui, id, text, ImGui::GetContentRegionAvail().x - scaled(26), hint);
   light_key(ui, index, part);
@@ -48,20 +51,34 @@ void field(Ui& ui, std::size_t index, const LightField& f) {
 
 void position_field(Ui& ui, std::size_t index) {
   const LightEntry light = lights_of(ui.studio.document())[index];
-  float uv[2] = {static_cast<float>(light.at.x), static_cast<float>(light.at.y)};
+  auto across = static_cast<float>(100 * light.at.x), down = static_cast<float>(100 * light.at.y);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("position");
-  tip("u, v of its image: 0, 0 is the frame's top left corner and 1, 1 its bottom right one");
-  ImGui::SameLine(scaled(92));
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - scaled(26));
+  tip("Where its image is: 0 % across and 0 % down is the frame's upper left corner, 100 % and 100 % the lower right "
+      "one");
+  ImGui::SameLine(scaled(kLabel));
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float width = 0.5F * (ImGui::GetContentRegionAvail().x - scaled(26) - gap);
   ImGui::PushID(static_cast<int>(index));
-  if (ImGui::DragFloat2("##position", uv, 0.001F, -20, 20, "%.4f"))
-    ui.studio.edit(fmt::format("move light {}", index + 1), fmt::format("light/{}/at", index), [&](const Document& d) {
-      return with_light_at(d, index, {static_cast<double>(uv[0]), static_cast<double>(uv[1])});
-    });
-  if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
+  const auto number = [&](const char* id, float& value, const char* format) {
+    ImGui::SetNextItemWidth(width);
+    const bool is_changed = ImGui::DragFloat(id, &value, 0.1F, -2000, 2000, format);
+    if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
+    return is_changed;
+  };
+  ImGui::BeginGroup();
+  const bool is_moved_across = number("##across", across, "%.2f %% across");
+  ImGui::SameLine(0, gap);
+  const bool is_moved_down = number("##down", down, "%.2f %% down");
+  ImGui::EndGroup();
+  // The other coordinate is not rounded.
+  const Vec2 to{is_moved_across ? 0.01 * static_cast<double>(across) : light.at.x,
+                is_moved_down ? 0.01 * static_cast<double>(down) : light.at.y};
+  if (is_moved_across || is_moved_down)
+    ui.studio.edit(fmt::format("move light {}", index + 1), fmt::format("light/{}/at", index),
+                   [&](const Document& d) { return with_light_at(d, index, to); });
   ImGui::PopID();
-  ui.registry.record(fmt::format("lights/{}/position", index + 1), fmt::format("{},{}", uv[0], uv[1]));
+  ui.registry.record(fmt::format("lights/{}/position", index + 1), fmt::format("{},{}", to.x, to.y));
   light_key(ui, index, LightPart::Position);
 }
 
@@ -73,10 +90,11 @@ void brightness_slider(Ui& ui, std::size_t index) {
   auto amount = static_cast<float>(*value);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("brightness");
-  ImGui::SameLine(scaled(92));
+  ImGui::SameLine(scaled(kLabel));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - scaled(26));
   ImGui::PushID(static_cast<int>(index) + 1000);
-  if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, "%.4g", ImGuiSliderFlags_Logarithmic)) {
+  if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, amount < 100 ? "%.3g" : "%.0f",
+                         ImGuiSliderFlags_Logarithmic)) {
     light.value = fmt::format("{:.5g}", amount);
     ui.studio.edit(fmt::format("brightness of light {}", index + 1), fmt::format("light/{}/value", index),
                    [&](const Document& d) { return with_light(d, index, light); });
@@ -106,12 +124,16 @@ bool draw_light(Ui& ui, std::size_t index) {
   position_field(ui, index);
   brightness_slider(ui, index);
   static constexpr LightField kFields[] = {
-      {"value", "1", "The sum of its direct image, or R,G,B, or 12stops, 100000lx, 800cd, 1.6e9nits",
+      {"value", "with a unit", "1",
+       "The same brightness in other units: the sum of the light's direct image, its R,G,B, or 12stops, 100000lx, "
+       "800cd, 1.6e9nits",
        &LightEntry::value, LightPart::Value},
-      {"colour", "D65", "D65, A, a temperature such as 3200K, led, sodium, R,G,B", &LightEntry::colour,
-       LightPart::Colour},
-      {"size", "0", "Angular diameter in degrees; 0.53 for the sun; 0: a point", &LightEntry::size, LightPart::Size},
-      {"distance", "inf", "From the first surface: 500 (mm), 2m, inf", &LightEntry::distance, LightPart::Distance}};
+      {"colour", "colour", "D65: daylight", "D65, A, a temperature such as 3200K, led, sodium, R,G,B",
+       &LightEntry::colour, LightPart::Colour},
+      {"size", "size  deg", "0: a point", "Angular diameter in degrees; 0.53 for the sun; 0: a point",
+       &LightEntry::size, LightPart::Size},
+      {"distance", "distance  mm", "inf: as far as the sun", "From the first surface: 500 (mm), 2m, inf",
+       &LightEntry::distance, LightPart::Distance}};
   for (const LightField& f : kFields) field(ui, index, f);
   return true;
 }
@@ -123,7 +145,7 @@ void draw_plate_line(Ui& ui) {
   if (const auto frames = ui.studio.plate_frames(); !frames.empty())
     name += fmt::format(", frames {}", frame_range_text(frames));
   ImGui::AlignTextToFramePadding();
-  fitting_text(fmt::format("Plate: {}", name), ImGui::GetContentRegionAvail().x - scaled(70), colours::kDim);
+  fitting_text(fmt::format("Plate: {}", name), ImGui::GetContentRegionAvail().x - scaled(70), colours::dim());
   ui.registry.record("lights/plate", document.plate.file);
   align_right({"Close"});
   if (button(ui, "lights/plate/close", "Close", "The flare on black again")) ui.studio.close_plate();

@@ -47,11 +47,10 @@ void draw_tile(Ui& ui, const Look& look, TextureSet& textures, float width) {
           .c_str());
   draw_tile_picture(ui, look, textures, at, {at.x + width, at.y + height});
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (hovered) list.AddRect(at, {at.x + width, at.y + height}, colours::kAccent, scaled(4), 0, scaled(2));
+  list.AddRect(at, {at.x + width, at.y + height}, hovered ? colours::kAccent : colours::line(), scaled(4), 0,
+               scaled(hovered ? 2 : 1));
   const ImVec2 text = {at.x + scaled(2), at.y + height + scaled(3)};
-  list.PushClipRect(text, {at.x + width, text.y + line}, true);
-  list.AddText(text, hovered ? colours::kText : colours::kDim, look.name.c_str());
-  list.PopClipRect();
+  list.AddText(text, hovered ? colours::text() : colours::dim(), fitted(look.name, width - scaled(2)).c_str());
   if (pressed) take_look(ui, look);
 }
 

@@ -23,7 +23,7 @@ constexpr std::array<ImU32, 6> kCurveColours = {IM_COL32(240, 173, 78, 255),  IM
 
 void draw_small_text(ImDrawList& list, ImVec2 at, const std::string& text, bool to_the_left) {
   const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
-  list.AddText(small_font(), small_font()->FontSize, {to_the_left ? at.x - size.x : at.x, at.y}, colours::kDim,
+  list.AddText(small_font(), small_font()->FontSize, {to_the_left ? at.x - size.x : at.x, at.y}, colours::dim(),
                text.c_str());
 }
 
@@ -46,7 +46,7 @@ void draw_kymograph(Ui& ui, TextureSet& textures, const char* id,
   const Texture& texture = textures.get(id, stamp, kKymographWidth, kKymographHeight, *rows);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture.id(), at, end);
-  list.AddRect(at, end, colours::kLine);
+  list.AddRect(at, end, colours::line());
   const float y = at.y + size.y * static_cast<float>(0.5 * (measured.angle_deg / std::max(most, 1e-9) + 1));
   list.AddLine({at.x, y}, {end.x, y}, colours::kSelected, scaled(1.5F));
 }
@@ -60,7 +60,7 @@ void draw_measured_picture(Ui& ui, TextureSet& textures, const std::string& id, 
       textures.get("measured/" + id, ui.studio.measured_count(), kMeasuredWidth, kMeasuredHeight, codes);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture.id(), at, end);
-  list.AddRect(at, end, colours::kLine);
+  list.AddRect(at, end, colours::line());
   draw_small_text(list, {at.x + scaled(5), at.y + scaled(2)}, label, false);
 }
 
@@ -94,7 +94,7 @@ void draw_ghost_curves(Ui& ui, ImVec2 size) {
     return ImVec2{min.x + (max.x - min.x) * static_cast<float>(p.x / range.angle),
                   max.y - (max.y - min.y) * static_cast<float>((p.y - range.least) / (range.most - range.least))};
   };
-  list.AddRect(min, max, colours::kLine);
+  list.AddRect(min, max, colours::line());
   draw_small_text(list, {min.x - scaled(5), min.y - scaled(2)}, fmt::format("{:.3g}", range.most), true);
   draw_small_text(list, {min.x - scaled(5), max.y - scaled(12)}, fmt::format("{:.3g}", range.least), true);
   draw_small_text(list, {min.x, max.y + scaled(3)}, "0\u00b0", false);
@@ -156,7 +156,7 @@ void draw_measured_header(Ui& ui) {
   const std::string title = fmt::format(
       "{}: {} ghost{}, light at {:+.2f}\u00b0", measured.flare->name.empty() ? measured.file : measured.flare->name,
       measured.flare->ghosts.size(), measured.flare->ghosts.size() == 1 ? "" : "s", measured.angle_deg);
-  fitting_text(title, ImGui::GetContentRegionAvail().x - scaled(264), colours::kText);
+  fitting_text(title, ImGui::GetContentRegionAvail().x - scaled(264), colours::text());
   ui.registry.record("measured/title", title);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(250));
   if (button(ui, "measured/sweep", "Photographs\u2026",
@@ -174,10 +174,10 @@ void draw_measured_panel(Ui& ui, TextureSet& textures) {
   const MeasuredAnswer& measured = ui.studio.measured();
   if (!measured.flare) {
     ImGui::PushTextWrapPos();
-    ImGui::TextDisabled("%s",
-                        measured.error.empty()
-                            ? "Open a measured flare (NAME.flare.toml, from `contrejour measure fit`) or drop it here."
-                            : measured.error.c_str());
+    ImGui::TextDisabled(
+        "%s", measured.error.empty()
+                  ? "Open a flare that was measured from photographs of a lens (a .flare.toml file), or drop it here."
+                  : measured.error.c_str());
     ImGui::PopTextWrapPos();
     return;
   }

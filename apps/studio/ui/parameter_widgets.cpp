@@ -2,6 +2,7 @@
 #include "studio/ui/parameter_widgets.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -102,14 +103,23 @@ void draw_value(Ui& ui, const Parameter& p, const std::string& shown, float widt
 
 }  // namespace
 
+std::string label_of(const Parameter& p) {
+  std::string label(p.name == "fnumber" ? "f-number" : p.name == "focal" ? "focal length" : p.name);
+  if (p.name != "fnumber") std::replace(label.begin(), label.end(), '-', ' ');
+  // The unit of a text is the command line's word for how it is written.
+  if ((p.kind != Kind::Real && p.kind != Kind::Integer) || p.unit.empty() || p.unit == "N") return label;
+  std::string unit(p.unit == "um" ? "\u00b5m" : p.unit);
+  if (unit == "PERIODS" || unit == "SECONDS" || unit == "STOPS")
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });
+  return label + "  " + unit;
+}
+
 void draw_parameter(Ui& ui, const Parameter& p, float label_width) {
   ImGui::PushID(p.name.data());
   const bool given = ui.studio.document().texts.contains(p.name);
   ImGui::AlignTextToFramePadding();
-  const std::string label =
-      p.unit.empty() || p.kind == Kind::Text ? std::string(p.name) : fmt::format("{}  {}", p.name, p.unit);
-  fitting_text(label, scaled(label_width), given ? colours::kText : colours::kDim);
-  if (ImGui::IsItemHovered()) tip(std::string(p.help).c_str());
+  fitting_text(label_of(p), scaled(label_width), given ? colours::text() : colours::dim());
+  tip(fmt::format("{}\n--{}", p.help, p.name).c_str());
   ImGui::SameLine(ImGui::GetCursorStartPos().x + scaled(label_width + 10));
   const std::string shown = shown_text(ui, p);
   draw_value(ui, p, shown, ImGui::GetContentRegionAvail().x - scaled(56));
@@ -144,7 +154,7 @@ void key_button(Ui& ui, const std::string& id, const TrackId& track) {
   const ImVec2 middle = {at.x + scaled(10), at.y + 0.5F * height};
   const ImVec2 points[] = {
       {middle.x, middle.y - r}, {middle.x + r, middle.y}, {middle.x, middle.y + r}, {middle.x - r, middle.y}};
-  const ImU32 colour = ImGui::IsItemHovered() ? colours::kText : keys != nullptr ? colours::kAccent : colours::kLine;
+  const ImU32 colour = ImGui::IsItemHovered() ? colours::text() : keys != nullptr ? colours::kAccent : colours::line();
   if (here)
     ImGui::GetWindowDrawList()->AddConvexPolyFilled(points, 4, colour);
   else

@@ -7,6 +7,9 @@
 
 namespace contrejour::studio {
 
+// The name as a label, with the unit of a number: "blade rotation  deg" of --blade-rotation.
+[[nodiscard]] std::string label_of(const params::Parameter& parameter);
+
 // label_width: at scale 1.
 void draw_parameter(Ui& ui, const params::Parameter& parameter, float label_width = 162);
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The prescription as a table that one can type in.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "contrejour/expert/glass_catalogue.h"
@@ -37,15 +41,28 @@ std::string_view short_name(LensColumn column) {
   return names[static_cast<std::size_t>(column)];
 }
 
+std::string completed_glass(const std::string& text) {
+  const auto names = glasses_like(text, 1);
+  return names.empty() || text.empty() ? text : names.front();
+}
+
 void draw_glass_completion(Ui& ui, const std::string& id) {
   const TextEdit& edit = ui.state.edit;
   if (edit.id != id || edit.text.empty()) return;
-  const auto names = glasses_like(edit.text, 8);
+  const auto names = glasses_near(edit.text, 8);
   if (names.empty()) return;
   ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + scaled(2)});
   ImGui::BeginTooltip();
   for (const std::string& name : names) ImGui::TextUnformatted(name.c_str());
+  if (!glasses_like(edit.text, 1).empty() && names.front() != edit.text) ImGui::TextDisabled("Tab takes the first");
   ImGui::EndTooltip();
+}
+
+// The coating in force: values of the document come before the lens's own.
+std::string text_of_cell(const Ui& ui, std::size_t row, LensColumn column) {
+  const Prescription& lens = *ui.studio.document().lens;
+  if (column != LensColumn::Coating || !is_editable(lens, row, column)) return cell_text(lens, row, column);
+  return coating_of_surface(ui.studio.document(), static_cast<int>(row) + 1);
 }
 
 void draw_cell(Ui& ui, std::size_t row, LensColumn column) {
@@ -55,10 +72,9 @@ void draw_cell(Ui& ui, std::size_t row, LensColumn column) {
   const std::string id = fmt::format("prescription/{}/{}", row + 1, short_name(column));
   const bool is_coating = column == LensColumn::Coating;
   const int number = static_cast<int>(row) + 1;
-  // The coating in force: values of the document come before the lens's own.
-  std::string text = is_coating ? coating_of_surface(ui.studio.document(), number) : cell_text(lens, row, column);
+  std::string text = text_of_cell(ui, row, column);
   const std::string before = text;
-  const bool accepted = text_field(ui, id, text, -1);
+  const bool accepted = text_field(ui, id, text, -1, "", column == LensColumn::Glass ? completed_glass : nullptr);
   if (column == LensColumn::Glass) draw_glass_completion(ui, id);
   if (!accepted || text == before) return;
   const std::string name = fmt::format("{} of surface {}", short_name(column), row + 1);
@@ -100,16 +116,24 @@ void draw_lens_row(Ui& ui, std::size_t row) {
   }
 }
 
+// A button that needs a selected surface; it says so where there is none.
+bool surface_button(Ui& ui, const char* id, const char* label, const char* help) {
+  const bool has_row = ui.studio.selection.surface > 0;
+  ImGui::BeginDisabled(!has_row);
+  const bool pressed = button(ui, id, label);
+  ImGui::EndDisabled();
+  tip(has_row ? help : "Select a surface first: click its number below, or the surface in the section (F2)");
+  return pressed;
+}
+
 void draw_actions(Ui& ui) {
   const auto row = static_cast<std::size_t>(std::max(0, ui.studio.selection.surface - 1));
-  const bool has_row = ui.studio.selection.surface > 0;
   const std::size_t count = ui.studio.document().lens->surfaces.size();
-  if (button(ui, "prescription/insert", "Insert", "A surface in the middle of the gap behind the selected one") &&
-      has_row)
+  if (surface_button(ui, "prescription/insert", "Insert", "A surface in the middle of the gap behind the selected one"))
     edit_surfaces(ui, "insert a surface", numbers_after_insertion(count, row),
                   [&](const Prescription& p) { return with_inserted_surface(p, row); });
   ImGui::SameLine();
-  if (button(ui, "prescription/delete", "Delete", "The selected surface") && has_row)
+  if (surface_button(ui, "prescription/delete", "Delete", "The selected surface"))
     edit_surfaces(ui, fmt::format("delete surface {}", row + 1), numbers_after_deletion(count, row),
                   [&](const Prescription& p) { return without_surface(p, row); });
   ImGui::SameLine();
@@ -126,31 +150,60 @@ void draw_actions(Ui& ui) {
   ImGui::SameLine();
   const Document& document = ui.studio.document();
   fitting_text(document.lens->name + (document.lens_was_edited ? "  (edited)" : ""), ImGui::GetContentRegionAvail().x,
-               colours::kDim);
+               colours::dim());
 }
 
-void set_up_lens_columns() {
-  ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_WidthFixed, scaled(28));
-  ImGui::TableSetupColumn("Type", ImGuiTableColumnFlags_WidthFixed, scaled(54));
-  for (const LensColumn column : kLensColumns)
-    ImGui::TableSetupColumn(std::string(heading_of(column)).c_str(), ImGuiTableColumnFlags_WidthStretch,
-                            column == LensColumn::Coating ? 1.4F
-                            : column == LensColumn::Conic ? 0.7F
-                                                          : 1.0F);
-  ImGui::TableSetupColumn("n / V", ImGuiTableColumnFlags_WidthFixed, scaled(96));
-  ImGui::TableHeadersRow();
+constexpr float kCellPadding = 4;  // of a field, at its left and right
+constexpr std::size_t kColumns = kLensColumns.size() + 3;
+
+// Each column is as wide as its longest text: a number that is cut looks like another number. What is left over is
+// spread evenly; a table that is wider than its panel scrolls.
+std::array<float, kColumns> column_widths(const Ui& ui) {
+  const Prescription& lens = *ui.studio.document().lens;
+  std::array<float, kColumns> widths = {scaled(28), text_width("asphere")};
+  for (std::size_t c = 0; c < kLensColumns.size(); ++c) {
+    float& width = widths[c + 2];
+    width = std::max(text_width(std::string(heading_of(kLensColumns[c]))), scaled(48));
+    for (std::size_t row = 0; row < lens.surfaces.size(); ++row)
+      width = std::max(width, text_width(text_of_cell(ui, row, kLensColumns[c])) + 2 * scaled(kCellPadding) + 2);
+  }
+  widths.back() = text_width("1.8888 / 88.8");
+  float all = ImGui::GetStyle().ScrollbarSize;
+  for (const float width : widths) all += width + 2 * ImGui::GetStyle().CellPadding.x;
+  const float left = std::max(0.0F, ImGui::GetContentRegionAvail().x - all) / static_cast<float>(kLensColumns.size());
+  for (std::size_t c = 0; c < kLensColumns.size(); ++c) widths[c + 2] += std::floor(left);
+  return widths;
+}
+
+void set_up_lens_columns(const Ui& ui) {
+  ImGui::TableSetupScrollFreeze(1, 1);
+  const auto widths = column_widths(ui);
+  std::size_t column = 0;
+  const auto add = [&](std::string_view heading) {
+    ImGui::TableSetupColumn(std::string(heading).c_str(), ImGuiTableColumnFlags_WidthFixed, widths[column++]);
+  };
+  add("#");
+  add("Type");
+  for (const LensColumn c : kLensColumns) add(heading_of(c));
+  add("n / V");
+  heading_row({"The surface's number, from the front. A click selects it in all panels.", "Its shape, or the stop",
+               "Of curvature at the vertex; inf: a plane. Above 0: its centre lies behind the surface.",
+               "To the next surface", "Behind the surface, by its name in the catalogue or as n,V; empty: air",
+               "Half of the diameter that lets light pass", "0: a sphere; -1: a paraboloid",
+               "none, quarter-wave, v-coat:550, \u2026 The panel Coatings (F4) shows what it does.",
+               "Refractive index and Abbe number of the glass behind the surface, at the d line"});
 }
 
 }  // namespace
 
 void draw_prescription_panel(Ui& ui) {
   draw_actions(ui);
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
-  if (!ImGui::BeginTable("prescription", 9, flags)) return;
-  set_up_lens_columns();
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
+  if (!ImGui::BeginTable("prescription", static_cast<int>(kColumns), flags)) return;
+  set_up_lens_columns(ui);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, IM_COL32(0, 0, 0, 0));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(scaled(4), scaled(1)));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(scaled(kCellPadding), scaled(1)));
   const std::size_t count = ui.studio.document().lens->surfaces.size();
   for (std::size_t row = 0; row < count && row < ui.studio.document().lens->surfaces.size(); ++row)
     draw_lens_row(ui, row);

@@ -82,9 +82,9 @@ void draw_stop_and_sensor(ImDrawList& list, const LensSection& section, const Se
   const SectionStop& stop = section.stop;
   for (const double side : {1.0, -1.0})
     list.AddLine(map.screen({stop.z_mm, side * stop.opening_mm}), map.screen({stop.z_mm, side * stop.outer_mm}),
-                 colours::kText, scaled(3));
+                 colours::text(), scaled(3));
   const double half = section.sensor.half_height_mm;
-  list.AddLine(map.screen({section.sensor.z_mm, -half}), map.screen({section.sensor.z_mm, half}), colours::kDim,
+  list.AddLine(map.screen({section.sensor.z_mm, -half}), map.screen({section.sensor.z_mm, half}), colours::dim(),
                scaled(3));
 }
 
@@ -195,7 +195,7 @@ void draw_legend(Ui& ui) {
       ghost ? fmt::format("Ghost {}: the light reflects at surface {}, then at {}", ghost_name(*ghost), ghost->j,
                           ghost->i)
             : "Rays that form the image. Click a ghost in the picture or in its list to see its path.";
-  ImGui::PushStyleColor(ImGuiCol_Text, ghost ? colours::kAccent : colours::kDim);
+  ImGui::PushStyleColor(ImGuiCol_Text, ghost ? colours::kAccent : colours::dim());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
   ui.registry.record("section/legend", text);
@@ -210,9 +210,11 @@ void draw_section_panel(Ui& ui) {
   ImGui::InvisibleButton("##section", {std::max(1.0F, room.x), std::max(1.0F, room.y)});
   const bool hovered = ImGui::IsItemHovered();
   ui.registry.record("section");
-  ImGui::PushClipRect(min, max, true);
+  // Rays end below the legend.
+  const ImVec2 upper = {min.x, min.y + ImGui::GetTextLineHeight() + scaled(6)};
+  ImGui::PushClipRect(upper, max, true);
   if (const auto section = ui.studio.section().section) {
-    const SectionMap map = section_map_of(*section, {min.x, min.y + scaled(16)}, max);
+    const SectionMap map = section_map_of(*section, upper, max);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 axis = map.screen({0, 0});
     list.AddLine({min.x, axis.y}, {max.x, axis.y}, IM_COL32(255, 255, 255, 30));

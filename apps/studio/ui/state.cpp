@@ -17,8 +17,11 @@ using Json = nlohmann::ordered_json;
 Json json_of_widgets(const WidgetRegistry& registry) {
   Json all = Json::array();
   for (const WidgetRecord& w : registry.all())
-    all.push_back(
-        {{"id", w.id}, {"rect", {w.min.x, w.min.y, w.max.x, w.max.y}}, {"value", w.value}, {"clipped", w.is_clipped}});
+    all.push_back({{"id", w.id},
+                   {"rect", {w.min.x, w.min.y, w.max.x, w.max.y}},
+                   {"value", w.value},
+                   {"clipped", w.is_clipped},
+                   {"cut", w.is_cut}});
   return all;
 }
 

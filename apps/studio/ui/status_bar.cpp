@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "studio/core/ghost_edits.h"
 #include "studio/core/ghosts_under.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
@@ -15,8 +16,10 @@ constexpr std::size_t kNamedGhosts = 5;
 
 std::string ghosts_text(const Ui& ui) {
   const auto& figures = ui.studio.figures();
-  const auto under = ghosts_under(
-      figures, {static_cast<double>(ui.state.probe.x), static_cast<double>(ui.state.probe.y)}, ui.studio.footprints());
+  auto under = ghosts_under(figures, {static_cast<double>(ui.state.probe.x), static_cast<double>(ui.state.probe.y)},
+                            ui.studio.footprints());
+  const Document& document = ui.studio.document();
+  std::erase_if(under, [&](std::size_t k) { return !is_drawn(document, figures[k].ghost); });
   if (under.empty()) return "no ghost here";
   std::string text = under.size() == 1 ? "ghost" : "ghosts";
   for (std::size_t k = 0; k < std::min(under.size(), kNamedGhosts); ++k)
@@ -46,14 +49,15 @@ void draw_status_bar(Ui& ui) {
   const bool has_problem = !ui.studio.problem().empty();
   const std::string left = has_problem ? ui.studio.problem() : ui.studio.message();
   ImGui::AlignTextToFramePadding();
-  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
-  fitting_text(left.empty() ? "Drag the light. Click a ghost to see its path." : left, half - scaled(20),
-               has_problem ? colours::kBad : colours::kDim);
+  // The problem has the whole line while the mouse is not in the picture.
+  const float room = ImGui::GetContentRegionAvail().x, half = 0.5F * room;
+  fitting_text(left.empty() ? "Drag the light. Click a ghost to see its path." : left,
+               ui.state.probe.x < 0 ? room : half - scaled(20), has_problem ? colours::kBad : colours::dim());
   ui.registry.record("status", left);
   if (ui.state.probe.x < 0) return;
   const std::string probe = pixel_text(ui) + "    " + ghosts_text(ui);
   ImGui::SameLine(half);
-  fitting_text(probe, half - scaled(10), colours::kText);
+  fitting_text(probe, half - scaled(10), colours::text());
   ui.registry.record("status/probe", probe);
 }
 

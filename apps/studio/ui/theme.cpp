@@ -34,7 +34,8 @@ ImVec4 rgb(int r, int g, int b, float a = 1.0F) {
   return {static_cast<float>(r) / 255, static_cast<float>(g) / 255, static_cast<float>(b) / 255, a};
 }
 
-void set_distances(ImGuiStyle& style) {
+// High contrast draws the border of every field, button and dialog, since all lie on black.
+void set_distances(ImGuiStyle& style, bool high_contrast) {
   style.WindowPadding = {10, 8};
   style.FramePadding = {8, 4};
   style.ItemSpacing = {8, 6};
@@ -51,7 +52,8 @@ void set_distances(ImGuiStyle& style) {
   style.ScrollbarRounding = 6;
   style.TabRounding = 4;
   style.WindowBorderSize = 0;
-  style.ChildBorderSize = 0;
+  style.ChildBorderSize = high_contrast ? 1 : 0;
+  style.FrameBorderSize = high_contrast ? 1 : 0;
   style.PopupBorderSize = 1;
   style.WindowTitleAlign = {0.02F, 0.5F};
 }
@@ -62,8 +64,8 @@ void set_colours(ImGuiStyle& style, bool high_contrast) {
   c[ImGuiCol_TextDisabled] = high_contrast ? rgb(214, 218, 224) : rgb(146, 154, 166);
   c[ImGuiCol_WindowBg] = high_contrast ? rgb(0, 0, 0) : rgb(21, 23, 27);
   c[ImGuiCol_ChildBg] = high_contrast ? rgb(0, 0, 0) : rgb(27, 30, 35);
-  c[ImGuiCol_PopupBg] = high_contrast ? rgb(0, 0, 0) : rgb(32, 36, 42, 0.98F);
-  c[ImGuiCol_Border] = high_contrast ? rgb(230, 230, 230) : rgb(62, 68, 78);
+  c[ImGuiCol_PopupBg] = high_contrast ? rgb(0, 0, 0) : rgb(32, 36, 42);
+  c[ImGuiCol_Border] = high_contrast ? rgb(180, 180, 180) : rgb(62, 68, 78);
   c[ImGuiCol_FrameBg] = high_contrast ? rgb(40, 40, 40) : rgb(40, 45, 53);
   c[ImGuiCol_FrameBgHovered] = rgb(52, 58, 68);
   c[ImGuiCol_FrameBgActive] = rgb(62, 69, 81);
@@ -74,17 +76,18 @@ void set_colours(ImGuiStyle& style, bool high_contrast) {
   c[ImGuiCol_HeaderHovered] = rgb(56, 70, 90);
   c[ImGuiCol_HeaderActive] = rgb(66, 82, 105);
   c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = high_contrast ? rgb(0, 0, 0) : rgb(38, 43, 50);
-  c[ImGuiCol_Separator] = rgb(50, 56, 65);
+  c[ImGuiCol_Separator] = high_contrast ? rgb(180, 180, 180) : rgb(50, 56, 65);
   c[ImGuiCol_CheckMark] = rgb(240, 173, 78);
-  c[ImGuiCol_SliderGrab] = rgb(240, 173, 78, 0.85F);
-  c[ImGuiCol_SliderGrabActive] = rgb(250, 196, 118);
+  // The value is written over the knob: these are dark enough for its text.
+  c[ImGuiCol_SliderGrab] = rgb(132, 95, 43);
+  c[ImGuiCol_SliderGrabActive] = rgb(160, 115, 52);
   c[ImGuiCol_Tab] = rgb(27, 30, 35);
   c[ImGuiCol_TabHovered] = rgb(64, 72, 85);
   c[ImGuiCol_TabActive] = rgb(46, 52, 61);
   c[ImGuiCol_TabUnfocused] = c[ImGuiCol_Tab];
   c[ImGuiCol_TabUnfocusedActive] = c[ImGuiCol_TabActive];
   c[ImGuiCol_TableHeaderBg] = rgb(33, 37, 43);
-  c[ImGuiCol_TableBorderLight] = rgb(38, 43, 50);
+  c[ImGuiCol_TableBorderLight] = high_contrast ? rgb(80, 80, 80) : rgb(38, 43, 50);
   c[ImGuiCol_TableBorderStrong] = rgb(50, 56, 65);
   c[ImGuiCol_TableRowBg] = rgb(0, 0, 0, 0);
   c[ImGuiCol_TableRowBgAlt] = rgb(255, 255, 255, 0.018F);
@@ -98,10 +101,14 @@ void set_colours(ImGuiStyle& style, bool high_contrast) {
 
 }  // namespace
 
+ImU32 colours::text() { return ImGui::GetColorU32(ImGuiCol_Text); }
+ImU32 colours::dim() { return ImGui::GetColorU32(ImGuiCol_TextDisabled); }
+ImU32 colours::line() { return ImGui::GetColorU32(ImGuiCol_Border); }
+
 void set_theme(float scale, bool high_contrast) {
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
-  set_distances(style);
+  set_distances(style, high_contrast);
   set_colours(style, high_contrast);
   style.ScaleAllSizes(scale);
   ImGui::GetIO().Fonts->Clear();

@@ -12,12 +12,15 @@ inline constexpr ImU32 kAccentDim = IM_COL32(240, 173, 78, 110);
 inline constexpr ImU32 kGood = IM_COL32(122, 199, 140, 255);
 inline constexpr ImU32 kBad = IM_COL32(235, 98, 88, 255);
 inline constexpr ImU32 kBadBack = IM_COL32(120, 36, 34, 255);
-inline constexpr ImU32 kText = IM_COL32(222, 226, 232, 255);
-inline constexpr ImU32 kDim = IM_COL32(146, 154, 166, 255);
-inline constexpr ImU32 kLine = IM_COL32(62, 68, 78, 255);
+inline constexpr ImU32 kText = IM_COL32(222, 226, 232, 255);  // on the picture
+inline constexpr ImU32 kLine = IM_COL32(62, 68, 78, 255);  // on the picture
 inline constexpr ImU32 kCanvas = IM_COL32(9, 10, 12, 255);
 inline constexpr ImU32 kShade = IM_COL32(12, 13, 16, 190);
 inline constexpr ImU32 kSelected = IM_COL32(102, 178, 255, 255);
+// Those of the theme in force, which high contrast changes; paler between BeginDisabled and EndDisabled.
+[[nodiscard]] ImU32 text();
+[[nodiscard]] ImU32 dim();
+[[nodiscard]] ImU32 line();
 }  // namespace colours
 
 // Sets the style and loads the fonts; before the first frame. scale: 0.75 to 3.

@@ -112,13 +112,16 @@ void draw_ruler(Ui& ui, const TimelineMap& map, ImVec2 min, float bottom) {
       list.AddRectFilled({map.x_of(frame - 0.5), min.y + height - scaled(4)}, {map.x_of(frame + 0.5), min.y + height},
                          colours::kGood);
   draw_plate_frames(ui, map, {map.left, min.y + scaled(13)});
-  for (int frame = (map.first + step - 1) / step * step; frame <= map.last; frame += step) {
+  const auto mark = [&](int frame) {
     const float x = map.x_of(frame);
     list.AddLine({x, min.y + scaled(14)}, {x, bottom}, IM_COL32(255, 255, 255, 18));
     const std::string text = std::to_string(frame);
     const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
-    list.AddText(small_font(), small_font()->FontSize, {x - 0.5F * size.x, min.y}, colours::kDim, text.c_str());
-  }
+    list.AddText(small_font(), small_font()->FontSize, {x - 0.5F * size.x, min.y}, colours::dim(), text.c_str());
+  };
+  mark(map.first);
+  for (int frame = map.first / step * step + step; frame <= map.last; frame += step)
+    if (map.x_of(frame) - map.x_of(map.first) > scaled(30)) mark(frame);
 }
 
 void draw_key(Ui& ui, const TimelineMap& map, const Track& track, const Key& key, float middle) {
@@ -140,7 +143,7 @@ void draw_key(Ui& ui, const TimelineMap& map, const Track& track, const Key& key
   const ImVec2 points[] = {{at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, {at.x - r, at.y}};
   const bool now = key.frame == ui.studio.view.frame;
   ImGui::GetWindowDrawList()->AddConvexPolyFilled(points, 4,
-                                                  dragged || ImGui::IsItemHovered() ? colours::kText
+                                                  dragged || ImGui::IsItemHovered() ? colours::text()
                                                   : now                             ? colours::kAccent
                                                                                     : IM_COL32(190, 140, 70, 255));
 }
@@ -183,7 +186,7 @@ void draw_between(Ui& ui, const Track& track) {
 void draw_row(Ui& ui, const TimelineMap& map, const Track& track, ImVec2 at) {
   ImGui::PushID(track.label.c_str());
   ImGui::SetCursorScreenPos({at.x, at.y + scaled(3)});
-  fitting_text(track.label, scaled(kNameWidth - kBetweenWidth - 8), colours::kText);
+  fitting_text(track.label, scaled(kNameWidth - kBetweenWidth - 8), colours::text());
   ui.registry.record(fmt::format("timeline/{}", track.label), text_at(track.value, ui.studio.view.frame));
   ImGui::SetCursorScreenPos({at.x + scaled(kNameWidth - kBetweenWidth - 4), at.y + scaled(2)});
   draw_between(ui, track);
@@ -205,10 +208,10 @@ void draw_tracks(Ui& ui) {
                         view.last_frame};
   const auto tracks = tracks_of(ui.studio.document());
   const float rows = min.y + scaled(kRulerHeight + 4);
-  const float bottom = rows + scaled(kRowHeight) * static_cast<float>(std::max<std::size_t>(1, tracks.size()));
+  const float bottom = rows + scaled(kRowHeight) * static_cast<float>(tracks.size());
   draw_ruler(ui, map, min, bottom);
   if (tracks.empty()) {
-    ImGui::SetCursorScreenPos({min.x, rows});
+    ImGui::SetCursorScreenPos({min.x, rows + scaled(4)});
     ImGui::TextDisabled("No keys yet. K keys the selected light; a diamond beside a value keys that value.");
   }
   for (std::size_t k = 0; k < tracks.size(); ++k)
@@ -219,7 +222,7 @@ void draw_tracks(Ui& ui) {
   list.AddLine({x, min.y + scaled(14)}, {x, bottom}, colours::kSelected, scaled(1.5F));
   list.AddTriangleFilled({x - scaled(5), min.y + scaled(14)}, {x + scaled(5), min.y + scaled(14)},
                          {x, min.y + scaled(21)}, colours::kSelected);
-  ImGui::SetCursorScreenPos({min.x, bottom});
+  ImGui::SetCursorScreenPos({min.x, bottom + (tracks.empty() ? scaled(kRowHeight) : 0)});
   ImGui::Dummy({1, scaled(4)});
 }
 

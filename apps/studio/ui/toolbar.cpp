@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
@@ -12,22 +14,69 @@
 namespace contrejour::studio {
 namespace {
 
+// The lens's name for people, which stands in its file, and the name that the command line knows it by.
+std::string name_in(const BundledLens& lens) {
+  constexpr std::string_view key = "\nname = \"";
+  const std::size_t at = lens.toml.find(key), from = at + key.size();
+  if (at == std::string_view::npos) return std::string(lens.name);
+  return std::string(lens.toml.substr(from, lens.toml.find('"', from) - from));
+}
+
+void draw_bundled_lens(Ui& ui, const BundledLens& lens, const std::string& name, float second_column) {
+  const bool chosen = lens.name == ui.studio.document().lens_name;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (ImGui::Selectable(fmt::format("{}##{}", name, lens.name).c_str(), chosen)) {
+    ui.studio.open_lens(std::string(lens.name));
+    ui.state.lens_filter.clear();
+  }
+  ui.registry.record(fmt::format("toolbar/lens/{}", lens.name), name);
+  ImGui::GetWindowDrawList()->AddText({at.x + second_column, at.y}, colours::dim(), std::string(lens.name).c_str());
+}
+
+// All lenses of which either name has the text that is typed; Enter takes the first.
+void draw_lens_list(Ui& ui) {
+  if (ImGui::IsWindowAppearing()) {
+    ui.state.lens_filter.clear();
+    ImGui::SetKeyboardFocusHere();
+  }
+  const auto lenses = bundled_lenses();
+  float longest = 0, longest_second = 0;
+  for (const BundledLens& lens : lenses) {
+    longest = std::max(longest, text_width(name_in(lens)));
+    longest_second = std::max(longest_second, text_width(std::string(lens.name)));
+  }
+  const float second = longest + scaled(18);
+  ImGui::SetNextItemWidth(second + longest_second + scaled(8));
+  const bool entered =
+      ImGui::InputTextWithHint("##find", "Find a lens", &ui.state.lens_filter, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.registry.record("toolbar/lens/find", ui.state.lens_filter);
+  bool is_taken = false, is_empty = true;
+  for (const BundledLens& lens : lenses) {
+    const std::string name = name_in(lens);
+    if (!contains_in_any_case(name, ui.state.lens_filter) && !contains_in_any_case(lens.name, ui.state.lens_filter))
+      continue;
+    if (entered && !is_taken && !ui.state.lens_filter.empty()) is_taken = ui.studio.open_lens(std::string(lens.name));
+    draw_bundled_lens(ui, lens, name, second);
+    is_empty = false;
+  }
+  if (is_empty) ImGui::TextDisabled("No bundled lens has this in its name.");
+  if (is_taken) ImGui::CloseCurrentPopup();
+}
+
 void draw_lens_choice(Ui& ui) {
   const Document& document = ui.studio.document();
   const std::string shown =
       (document.lens->name.empty() ? document.lens_name : document.lens->name) + (document.lens_was_edited ? " *" : "");
-  ImGui::SetNextItemWidth(scaled(230));
-  const bool open = ImGui::BeginCombo("##lens", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  const float width = scaled(230);
+  ImGui::SetNextItemWidth(width);
+  const bool open = ImGui::BeginCombo("##lens", fitted(shown, width - 2 * ImGui::GetFrameHeight()).c_str(),
+                                      ImGuiComboFlags_HeightLarge);
   ui.registry.record("toolbar/lens", document.lens_name);
   if (!open) {
-    tip("The lens; a bundled one, or a file of another program");
+    tip(fmt::format("{}\nThe lens: a bundled one, or a file of another program", shown).c_str());
     return;
   }
-  for (const BundledLens& lens : bundled_lenses()) {
-    if (ImGui::Selectable(std::string(lens.name).c_str(), lens.name == document.lens_name))
-      ui.studio.open_lens(std::string(lens.name));
-    ui.registry.record(fmt::format("toolbar/lens/{}", lens.name));
-  }
+  draw_lens_list(ui);
   ImGui::Separator();
   if (ImGui::Selectable("Open a lens file\u2026")) open_dialog(ui, Dialog::OpenLens);
   ImGui::EndCombo();
@@ -52,12 +101,12 @@ void draw_lens_numbers(Ui& ui) {
   const Prescription& lens = *ui.studio.document().lens;
   const double widest = lens.f_number > 0 ? lens.f_number : 0.5;
   draw_lens_number(ui, "f", "fnumber", "f/%.3g", ui.studio.lens().f_number, widest, 64);
-  tip("The f-number. Drag, or Ctrl+click to type.");
+  tip("The f-number. Drag, or click to type.");
   if (lens.zoom.size() < 2) return;
   ImGui::SameLine();
   draw_lens_number(ui, "zoom", "focal", "%.4g mm", ui.studio.lens().focal_length_mm, lens.zoom.front().focal_length_mm,
                    lens.zoom.back().focal_length_mm);
-  tip("The focal length. Drag, or Ctrl+click to type.");
+  tip("The focal length. Drag, or click to type.");
 }
 
 void draw_history_buttons(Ui& ui) {
@@ -68,9 +117,16 @@ void draw_history_buttons(Ui& ui) {
   const std::string undo = "Undo " + named(history.can_undo(), history.position(), "(nothing)") + "  (Ctrl+Z)";
   const std::string redo =
       "Redo " + named(history.can_redo(), history.position() + 1, "(nothing)") + "  (Ctrl+Shift+Z)";
-  if (button(ui, "toolbar/undo", "Undo", undo.c_str())) ui.studio.undo();
+  const auto step_button = [&](const char* id, const char* label, const std::string& help, bool is_possible) {
+    ImGui::BeginDisabled(!is_possible);
+    const bool pressed = button(ui, id, label);
+    ImGui::EndDisabled();
+    tip(help.c_str());
+    return pressed;
+  };
+  if (step_button("toolbar/undo", "Undo", undo, history.can_undo())) ui.studio.undo();
   ImGui::SameLine();
-  if (button(ui, "toolbar/redo", "Redo", redo.c_str())) ui.studio.redo();
+  if (step_button("toolbar/redo", "Redo", redo, history.can_redo())) ui.studio.redo();
 }
 
 }  // namespace
@@ -93,9 +149,9 @@ void draw_toolbar(Ui& ui) {
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, IM_COL32(250, 196, 118, 255));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, colours::kAccent);
   ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(24, 22, 18, 255));
-  const bool exports =
-      button(ui, "toolbar/export", "Export", "The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
+  const bool exports = button(ui, "toolbar/export", "Export");
   ImGui::PopStyleColor(4);
+  tip("The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
   if (exports) open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind));
   ImGui::SameLine();
   if (button(ui, "toolbar/help", "?", "All keys (F1)")) ui.state.shows_help = !ui.state.shows_help;

@@ -111,7 +111,7 @@ void draw_exposure(Ui& ui) {
   }
   if (ImGui::IsItemDeactivated()) studio.end_gesture();
   ui.registry.record("viewport/exposure", fmt::format("{:.3f}", stops));
-  tip("The exposure of the view, and of PNG previews. Drag, or Ctrl+click to type.");
+  tip("The exposure of the view, and of PNG previews. Drag, or click to type.");
   ImGui::SameLine();
   if (button(ui, "viewport/auto-exposure", "Auto", "Derive the exposure from the picture's brightest parts")) {
     studio.edit("automatic exposure", "",

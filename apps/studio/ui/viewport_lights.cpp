@@ -48,6 +48,24 @@ void draw_arrow(ImDrawList& list, ImVec2 at, ImVec2 target, ImU32 colour) {
                          {foot.x + to.y * size * 0.6F, foot.y - to.x * size * 0.6F}, colour);
 }
 
+// How far the light is outside the frame, in widths of the frame, beside its handle and within the canvas.
+void draw_distance(Ui& ui, const ViewportMap& map, std::size_t index, ImVec2 handle, Vec2 uv, ImU32 colour) {
+  const double across = std::fmax(std::fmax(-uv.x, uv.x - 1), 0.0);
+  const double down = std::fmax(std::fmax(-uv.y, uv.y - 1), 0.0) * map.height / map.width;
+  const double outside = std::hypot(across, down);
+  if (!(outside > 0)) return;
+  const std::string text = fmt::format("{:.2g} frame widths outside", outside);
+  const ImVec2 size = small_font()->CalcTextSizeA(small_font()->FontSize, 1e9F, 0, text.c_str());
+  const float gap = scaled(kHandleRadius + 8);
+  const bool is_right = handle.x + gap + size.x > map.canvas_max.x;
+  const ImVec2 at = {is_right ? handle.x - gap - size.x : handle.x + gap,
+                     std::clamp(handle.y - 0.5F * size.y, map.canvas_min.y, map.canvas_max.y - size.y)};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - scaled(3), at.y}, {at.x + size.x + scaled(3), at.y + size.y}, colours::kShade, scaled(3));
+  list.AddText(small_font(), small_font()->FontSize, at, colour, text.c_str());
+  ui.registry.record(fmt::format("viewport/light/{}/outside", index + 1), at, {at.x + size.x, at.y + size.y}, text);
+}
+
 void draw_handle(Ui& ui, const ViewportMap& map, std::size_t index, Vec2 uv) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool selected = ui.studio.selection.light == index;
@@ -61,6 +79,7 @@ void draw_handle(Ui& ui, const ViewportMap& map, std::size_t index, Vec2 uv) {
   list.AddLine({at.x, at.y - r - gap}, {at.x, at.y - gap}, colour, 1);
   list.AddLine({at.x, at.y + gap}, {at.x, at.y + r + gap}, colour, 1);
   draw_arrow(list, at, true_place, colour);
+  draw_distance(ui, map, index, at, uv, colour);
   if (lights_of(ui.studio.document()).size() > 1) {
     const std::string number = fmt::format("{}", index + 1);
     list.AddText(small_font(), small_font()->FontSize, {at.x + r + gap, at.y + scaled(4)}, colour, number.c_str());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -58,6 +59,28 @@ void draw_frame_guides(const ViewportMap& map) {
   list.AddLine({middle.x, middle.y - arm}, {middle.x, middle.y + arm}, colour);
 }
 
+namespace {
+
+// Which side of the wipe's edge is the snapshot, below the picture where there is room.
+void draw_wipe_labels(Ui& ui, const ViewportMap& map, float x, float bottom) {
+  const Studio& studio = ui.studio;
+  const std::size_t index = std::min(studio.compare_view().snapshot, studio.snapshots().size() - 1);
+  const float line = ImGui::GetTextLineHeight(), gap = scaled(8);
+  const float y = std::fmin(bottom + scaled(2), map.canvas_max.y - line - scaled(2));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto label = [&](const std::string& text, float left) {
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    list.AddRectFilled({left - scaled(4), y}, {left + width + scaled(4), y + line}, colours::kShade, scaled(3));
+    list.AddText({left, y}, colours::kText, text.c_str());
+  };
+  const std::string& name = studio.snapshots()[index].name;
+  label(name, x - gap - ImGui::CalcTextSize(name.c_str()).x);
+  label("now", x + gap);
+  ui.registry.record("viewport/wipe/labels", {x - gap, y}, {x + gap, y + line}, name);
+}
+
+}  // namespace
+
 bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered) {
   CompareView compare = ui.studio.compare_view();
   if (compare.mode != CompareMode::Wipe || ui.studio.snapshots().empty()) return false;
@@ -75,6 +98,7 @@ bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered) {
   const bool used = near || ui.state.drags_wipe;
   if (used) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, used ? colours::kText : colours::kAccent, scaled(1.5F));
+  draw_wipe_labels(ui, map, x, bottom);
   ui.registry.record("viewport/wipe", {x - reach, top}, {x + reach, bottom}, fmt::format("{:.4f}", compare.edge));
   return used;
 }

@@ -2,6 +2,7 @@
 #include "studio/ui/widgets.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -80,36 +81,91 @@ void colour_patch(ImU32 colour, float width) {
   ImGui::Dummy({width, height});
 }
 
-void fitting_text(const std::string& text, float width, ImU32 colour) {
+std::string fitted(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string shown = text;
-  while (shown.size() > 1 && ImGui::CalcTextSize(shown.c_str()).x > width) {
-    shown.resize(shown.size() - 1);
-    while (!shown.empty() && (static_cast<unsigned char>(shown.back()) & 0xC0U) == 0x80U) shown.pop_back();
-    if (ImGui::CalcTextSize((shown + "\u2026").c_str()).x <= width) {
-      shown += "\u2026";
-      break;
+  while (!shown.empty()) {
+    bool is_rest_of_letter = true;  // of several bytes in UTF-8
+    while (is_rest_of_letter && !shown.empty()) {
+      is_rest_of_letter = (static_cast<unsigned char>(shown.back()) & 0xC0U) == 0x80U;
+      shown.pop_back();
     }
+    if (ImGui::CalcTextSize((shown + "\u2026").c_str()).x <= width) break;
   }
+  return shown + "\u2026";
+}
+
+void fitting_text(const std::string& text, float width, ImU32 colour) {
+  const std::string shown = fitted(text, width);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(shown.c_str());
   ImGui::PopStyleColor();
   if (shown != text) tip(text.c_str());
 }
 
-bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint) {
+float text_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+bool contains_in_any_case(std::string_view text, std::string_view part) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::search(text.begin(), text.end(), part.begin(), part.end(),
+                     [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
+}
+
+void heading_row(std::initializer_list<const char*> tips) {
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  int column = 0;
+  for (const char* text : tips) {
+    if (ImGui::TableSetColumnIndex(column)) {
+      ImGui::PushID(column);
+      ImGui::TableHeader(ImGui::TableGetColumnName(column));
+      ImGui::PopID();
+      tip(text);
+    }
+    ++column;
+  }
+}
+
+// Says that the field drawn last has more text than fits, unless it is being edited.
+void mark_cut_text(Ui& ui, const std::string& text) {
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  if (ImGui::IsItemActive() || text_width(text) <= max.x - min.x - 2 * padding.x) return;
+  ui.registry.mark_cut();
+  const float left = max.x - padding.x - text_width("\u2026") - 1;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({left, min.y + 1}, {max.x, max.y - 1}, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                     ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersRight);
+  list.AddText({left + 1, min.y + padding.y}, colours::text(), "\u2026");
+  tip(text.c_str());
+}
+
+using Completion = std::string (*)(const std::string& text);
+
+int complete_text(ImGuiInputTextCallbackData* data) {
+  const Completion complete = *static_cast<Completion*>(data->UserData);
+  const std::string text = complete(std::string(data->Buf, static_cast<std::size_t>(data->BufTextLen)));
+  data->DeleteChars(0, data->BufTextLen);
+  data->InsertChars(0, text.c_str());
+  return 0;
+}
+
+bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint, Completion complete) {
   TextEdit& edit = ui.state.edit;
   const bool is_edited = edit.id == id, is_refused = edit.refused_id == id;
   std::string& shown = is_edited ? edit.text : is_refused ? edit.refused_text : text;
   if (is_refused) ImGui::PushStyleColor(ImGuiCol_FrameBg, colours::kBadBack);
   ImGui::PushID(id.c_str());
   ImGui::SetNextItemWidth(width);
-  const bool entered = ImGui::InputTextWithHint(
-      "##field", hint, &shown, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
+                                    (complete != nullptr ? ImGuiInputTextFlags_CallbackCompletion : 0);
+  const bool entered = ImGui::InputTextWithHint("##field", hint, &shown, flags,
+                                                complete != nullptr ? complete_text : nullptr, &complete);
   const bool started = ImGui::IsItemActivated(), left = ImGui::IsItemDeactivated();
   const bool was_changed = ImGui::IsItemDeactivatedAfterEdit();
   ImGui::PopID();
-  if (is_refused) ImGui::PopStyleColor();
   ui.registry.record(id, shown);
+  mark_cut_text(ui, shown);
+  if (is_refused) ImGui::PopStyleColor();
   if (is_refused) tip(edit.reason.c_str());
   if (started && !is_edited) {
     edit.id = id;
@@ -133,12 +189,6 @@ void bring_into_sight(const Ui& ui, int surface, int& in_sight) {
   if (ui.studio.selection.surface != surface || in_sight == surface) return;
   ImGui::SetScrollHereY(0.5F);
   in_sight = surface;
-}
-
-void open_dialog(Ui& ui, Dialog dialog, std::string path) {
-  ui.state.dialog = dialog;
-  ui.state.dialog_opens = true;
-  ui.state.path = std::move(path);
 }
 
 ImU32 display_colour(const Rgb& rgb, double brightest) {

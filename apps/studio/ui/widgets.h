@@ -3,8 +3,10 @@
 // test port and for the dump of the state. Thread-safety: the thread of the interface.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <imgui.h>
@@ -21,7 +23,8 @@ struct WidgetRecord {
   ImVec2 min, max;
   std::string value;
   bool is_clipped = false;  // a part of it lies outside its panel
-  bool is_hidden = false;   // its middle does
+  bool is_hidden = false;  // its middle does
+  bool is_cut = false;  // its text is longer than it
 };
 
 class WidgetRegistry {
@@ -30,6 +33,7 @@ class WidgetRegistry {
   // The item that Dear ImGui has drawn last, or a rectangle.
   void record(std::string id, std::string value = {});
   void record(std::string id, ImVec2 min, ImVec2 max, std::string value = {});
+  void mark_cut() { widgets_.back().is_cut = true; }  // the last one
   [[nodiscard]] const WidgetRecord* find(const std::string& id) const;
   [[nodiscard]] const std::vector<WidgetRecord>& all() const { return widgets_; }
 
@@ -85,8 +89,10 @@ struct InterfaceState {
   bool side_was_chosen = false, bottom_was_chosen = false;  // by a key: the tab bar follows
   bool shows_panels = true, shows_help = false;
   Dialog dialog = Dialog::None;
-  bool dialog_opens = false;
-  std::string path, ghost_filter, parameter_filter;
+  bool dialog_opens = false, dialog_has_failed = false;
+  std::string path, ghost_filter, parameter_filter, lens_filter;
+  std::array<std::string, 8> folders;  // in which each dialog opens, as Dialog; empty: the program's
+  bool shows_all_files = false, path_wants_keys = false, selects_name = false;  // of file dialogs
   std::string asked_path;  // the file that the user was asked about, since it exists
   GhostOrder ghost_order = GhostOrder::Visibility;
   float side_width = 450, bottom_height = 272;  // at scale 1
@@ -123,14 +129,24 @@ void align_right(std::initializer_list<const char*> labels, float others = 0);
 void colour_patch(ImU32 colour, float width);
 // A text of which the last part is left out where it does not fit.
 void fitting_text(const std::string& text, float width, ImU32 colour);
+// The text, or its beginning and an ellipsis that are at most so wide.
+[[nodiscard]] std::string fitted(const std::string& text, float width);
+[[nodiscard]] float text_width(const std::string& text);
+// ASCII letters in any case.
+[[nodiscard]] bool contains_in_any_case(std::string_view text, std::string_view part);
+// The headings of a table's columns, each with its tip.
+void heading_row(std::initializer_list<const char*> tips);
 // A text field that keeps what is typed until Enter or a click elsewhere; true when it is to be accepted, `text` then
-// has it. Refused text stays, in red, with the reason as its tip.
-bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint = "");
+// has it. Refused text stays, in red, with the reason as its tip. complete: what Tab makes of the text; none: Tab goes
+// on.
+bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint = "",
+                std::string (*complete)(const std::string& text) = nullptr);
 void refuse_text(Ui& ui, const std::string& id, const std::string& text, const std::string& reason);
 
 // Scrolls the list to the item drawn last if its surface is selected, once.
 void bring_into_sight(const Ui& ui, int surface, int& in_sight);
 
+// In the folder that it was left in, if the path has none. A session to be saved gets a name.
 void open_dialog(Ui& ui, Dialog dialog, std::string path = {});
 
 [[nodiscard]] ImU32 display_colour(const Rgb& rgb, double brightest);
