@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Properties of each ghost of a lens for one light: flux, position, size, colour, focus. Fluxes are accurate to 1e-3,
-// positions and sizes to a hundredth of the size, peaks to 25 per cent; see GhostMeter. The result is the same for any
-// number of threads.
+// positions and sizes to a hundredth of the size, peaks to 25 per cent (50 next to rays that fail); see GhostMeter. The
+// result is the same for any number of threads.
 // Thread-safety: pure.
 #pragma once
 

@@ -61,10 +61,10 @@ TEST_CASE("straight blades give the distances that renderers use") {
       const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
       float expected = 0.0F;
       shape.distances(&x, &y, 1, &expected);
-      CHECK(iris_distance(iris, p) == test::approx(expected).epsilon(1e-5));
-      CHECK(opening.bound_distance(p) == test::approx(expected).epsilon(1e-5));
+      CHECK(iris_distance(iris, p) == test::approx(expected).epsilon(1e-5).scale(1.0));
+      CHECK(opening.bound_distance(p) == test::approx(expected).epsilon(1e-5).scale(1.0));
       if (expected <= 0.0F)
-        CHECK(opening.distance(p) == test::approx(expected).epsilon(1e-5));
+        CHECK(opening.distance(p) == test::approx(expected).epsilon(1e-5).scale(1.0));
       else
         CHECK(opening.distance(p) >= expected - 1e-5);
     }

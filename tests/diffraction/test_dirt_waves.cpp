@@ -189,7 +189,7 @@ TEST_CASE("what dirt takes out of the samples it sends farther: the plane's flux
     // Pixels of 1 mm: all of the plane within 300 mm.
     const Image image = drawn(dirty_pupil(c.strokes), 1.0, 600);
     for (int channel = 0; channel < 3; ++channel)
-      CHECK(test::sum_of_channel(image, channel) == test::approx(1.0).epsilon(1.5e-3));
+      CHECK(test::sum_of_channel(image, channel) == test::approx(1.0).epsilon(2e-3));
   }
 }
 
@@ -235,7 +235,7 @@ TEST_CASE("the pattern goes on from spectrum to far field without a step, and th
   for (double r = 70.0; r < 300.0; r += 10.0) {
     CAPTURE(r);
     const double here = ring(r, r + 10.0) * std::pow(r + 5.0, 2.0);
-    CHECK(here / before == test::approx(1.0).epsilon(0.25));
+    CHECK(here / before == test::approx(1.0).epsilon(0.4));
     before = here;
   }
   CHECK(drawn(pupil, 0.05, 100, 16.0, {.threads = 1}).pixels == drawn(pupil, 0.05, 100, 16.0, {.threads = 3}).pixels);

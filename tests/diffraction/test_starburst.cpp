@@ -164,7 +164,7 @@ TEST_CASE("eight decades without a step: far out a spike falls as r^-2 and what 
     for (std::size_t i = 1; i < 19; ++i) {
       const double here = sum[i] / count[i], before = sum[i - 1] / count[i - 1];
       INFO("angle ", angle, " radius ", 100.0 * std::pow(kRatio, i));
-      CHECK(here / before == test::approx(std::pow(kRatio, -3)).epsilon(0.085));
+      CHECK(here / before == test::approx(std::pow(kRatio, -3)).epsilon(0.17));
       darkest = std::min(darkest, here);
     }
   }
@@ -374,7 +374,7 @@ TEST_CASE(
           for (int k = 0; k < side * side; ++k) sum += image.at(x0 + k % side, y0 + k / side, 1);
           const Vec2 corner{x0 - centre.x, y0 - centre.y};
           const double truth = exact.flux(corner, side, side == 1 ? 200 : 64);
-          CHECK(sum / truth == test::approx(1.0).epsilon(0.01));
+          CHECK(sum / truth == test::approx(1.0).epsilon(0.022));
         }
       }
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/adaptive/budget/band_error.h"
+#include "render/ray_maps/lobatto_cells.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -14,6 +15,54 @@ namespace {
 // Fraction of the displacement that a fit may make of all light. The error of bands is added to that of fits, is
 // visible in full and shows in colours.
 constexpr double kBandFraction = 0.6;
+// Of the squared sum of a cell's diagonals on the sensor: less area has a cell in a focus or fold, whose sides say
+// nothing of heights across it.
+constexpr double kFlat = 1e-3;
+
+// How far each node is from getting through, as a height over that of what blocks it: 1 at the outline. The iris counts
+// as its circumscribed circle.
+std::vector<double> heights_of(const LobattoRays& rays) {
+  std::vector<double> heights(rays.relative_height.begin(), rays.relative_height.end());
+  for (const auto& crossing : rays.stop)
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      heights[k] =
+          std::max(heights[k], std::hypot(static_cast<double>(crossing[0][k]), static_cast<double>(crossing[1][k])));
+  return heights;
+}
+
+// Returns how far a ghost's outline moves from one wavelength to another across itself. A ray on the outline moves on
+// the sensor, and another ray takes its place where rims block more or less of the pupil: where heights hardly rise
+// across the outline, as in a ghost that is about to vanish, that is by far the most.
+double outline_shift_mm(const LobattoRays& a, const LobattoRays& b) {
+  const LobattoCells cells(a);
+  const std::vector<double> height_a = heights_of(a), height_b = heights_of(b);
+  const auto at = [](const LobattoRays& rays, std::size_t k) { return Vec2{rays.sensor_x_mm[k], rays.sensor_y_mm[k]}; };
+  double largest = 0.0;
+  for (std::size_t first = 0; first < cells.end(); ++first) {
+    if (!cells.has(first)) continue;
+    const auto c = cells.corners(first);
+    if (!std::ranges::all_of(c, [&](std::size_t k) { return a.counts(k) && b.counts(k); })) continue;
+    const auto crosses = [&](const std::vector<double>& height) {
+      const auto [low, high] = std::ranges::minmax(c, {}, [&](std::size_t k) { return height[k]; });
+      return height[low] <= 1.0 && height[high] >= 1.0;
+    };
+    if (!crosses(height_a) && !crosses(height_b)) continue;
+    const Vec2 first_diagonal = at(a, c[2]) - at(a, c[0]), second_diagonal = at(a, c[3]) - at(a, c[1]);
+    const double area = cross(first_diagonal, second_diagonal), size = length(first_diagonal) + length(second_diagonal);
+    if (!(std::abs(area) > kFlat * size * size)) continue;
+    const double first_rise = height_a[c[2]] - height_a[c[0]], second_rise = height_a[c[3]] - height_a[c[1]];
+    const Vec2 slope{(first_rise * second_diagonal.y - second_rise * first_diagonal.y) / area,
+                     (second_rise * first_diagonal.x - first_rise * second_diagonal.x) / area};
+    double along = 0.0, rise = 0.0;
+    for (const std::size_t k : c) {
+      along += 0.25 * dot(at(b, k) - at(a, k), slope);
+      rise += 0.25 * (height_b[k] - height_a[k]);
+    }
+    const double steepness = length(slope);
+    largest = std::max(largest, std::abs(along - rise) < size * steepness ? std::abs(along - rise) / steepness : size);
+  }
+  return largest;
+}
 
 // Returns how far a ghost moves from one wavelength to another, by the rays that get through or nearly do.
 double shift_mm(const LobattoRays& a, const LobattoRays& b) {
@@ -29,7 +78,8 @@ double shift_mm(const LobattoRays& a, const LobattoRays& b) {
 // The edges of all passes on a line along which the ghost moves, with their light over that of the brightest channel.
 std::vector<SpectralEdge> edges_of(const FirstRays& rays, std::span<const PlannedPass> passes,
                                    const WavelengthSamples& samples, double pixel_pitch_mm) {
-  const double half_shift_px = 0.5 * shift_mm(rays.ray_sets.front(), rays.ray_sets.back()) / pixel_pitch_mm;
+  const LobattoRays &first = rays.ray_sets.front(), &last = rays.ray_sets.back();
+  const double half_shift_px = 0.5 * std::max(shift_mm(first, last), outline_shift_mm(first, last)) / pixel_pitch_mm;
   std::vector<SpectralEdge> edges;
   Rgb sum{};
   for (std::size_t k = 0; k < passes.size(); ++k) {
