@@ -359,7 +359,7 @@ TEST_CASE("a disc's starburst is the sum of its points', and holds the light's v
   CHECK(psnr_db(truth, ours) > 35.0);
   // The tail outside the disc, as a ratio.
   for (const auto& [x, y] : {std::pair{10, 10}, {200, 20}, {60, 140}, {180, 80}})
-    CHECK(flux_in(ours, x, y, 8) == test::approx(flux_in(truth, x, y, 8)).epsilon(0.01));
+    CHECK(flux_in(ours, x, y, 8) == test::approx(flux_in(truth, x, y, 8)).epsilon(0.03));
 }
 
 TEST_CASE("a disc's direct image lies where the light is, within a small part of a pixel") {

@@ -133,7 +133,7 @@ TEST_CASE(
       for (const float a : pupil->mask.amplitude) open += a > 0.0F ? 1.0 : 0.0;
       open *= pupil->mask.grid.pitch_mm * pupil->mask.grid.pitch_mm;
       without_outline += !pupil->outline.has_value();
-      if (pupil->outline) CHECK(pupil->outline->area_mm2() / open == test::approx(1.0).epsilon(0.05));
+      if (pupil->outline) CHECK(pupil->outline->area_mm2() / open == test::approx(1.0).epsilon(0.06));
     }
   }
   CHECK(without_outline <= 1);

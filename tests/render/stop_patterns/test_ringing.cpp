@@ -85,7 +85,7 @@ TEST_CASE("a ghost keeps its light, whatever its Fresnel number [slow]") {
       if (bounds.traits.is_slow && f > 100.0) return;
       const double sharp = sum(image_of(bounds, lens, Light{}, settings));
       const double node = sum(image_of(bounds, lens, Light{}, ringing(settings)));
-      CHECK(node / sharp == test::approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.01 : 0.04));
+      CHECK(node / sharp == test::approx(1.0).epsilon(bounds.traits.integrates_pixels ? 0.015 : 0.04));
     });
   }
 }
@@ -122,7 +122,7 @@ TEST_CASE("at a low Fresnel number a ghost widens smoothly and ends") {
     }
     CHECK(beyond / (sum(node) / 3.0) > 0.1);
     // 4 sin^2(pi F / 2) on the axis: 2 for F = 1.5 (Lommel).
-    CHECK(node.at(80, 80) / sharp.at(80, 80) == test::approx(2.0).epsilon(0.12));
+    CHECK(node.at(80, 80) / sharp.at(80, 80) == test::approx(2.0).epsilon(0.16));
     CHECK(peak_of(node) < 2.6 * sharp.at(80, 80));
   });
 }
@@ -174,7 +174,7 @@ TEST_CASE("half-tones of a picture as the iris dim every point of a ghost, with 
       const Image bright = image_of(bounds, plate_of(radius_mm, plain), Light{}, settings);
       const Image dim = image_of(bounds, plate_of(radius_mm, toned), Light{}, settings);
       const double brightest = 0.6 + 0.4 * kOpen;  // of the picture, which counts as a transmittance of 1
-      CHECK(sum(dim) / sum(bright) == test::approx(0.6 / brightest).epsilon(0.02));
+      CHECK(sum(dim) / sum(bright) == test::approx(0.6 / brightest).epsilon(0.035));
       // The mean of x over a half disc is 4 r / (3 pi).
       const double off = 0.4 * 4.0 * kOpen / (3.0 * std::numbers::pi);
       double left = 0.0, right = 0.0;
