@@ -224,7 +224,7 @@ TEST_CASE("measured flare: a disc of level 1 sums to its area, at any resolution
     const auto image = render_measured(flare, std::span(&light, 1), frame);
     REQUIRE(image.has_value());
     const double sum = std::accumulate(image->pixels.begin(), image->pixels.end(), 0.0) / 3.0;
-    CHECK(sum == test::approx(std::numbers::pi * 0.01).epsilon(2e-3));
+    CHECK(sum == test::approx(std::numbers::pi * 0.01).epsilon(3e-3));
   }
 }
 
