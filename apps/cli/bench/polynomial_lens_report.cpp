@@ -11,7 +11,7 @@
 namespace contrejour::cli {
 namespace {
 
-// What fits and pictures must reach.
+// The figures that fits and pictures must reach.
 constexpr double kMostMedian_px = 0.01, kMostWeighted_px = 0.25, kMostTransmittance = 2e-3, kMostTraced = 0.15;
 constexpr double kMostBytes = 2e6, kMostClock_s = 30.0;
 constexpr double kLeast_db = 50.0, kMostBelowAdaptive_db = 3.0, kMostFlux = 0.005;

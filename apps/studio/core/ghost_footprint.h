@@ -30,8 +30,8 @@ struct GhostFootprint {
 [[nodiscard]] GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light,
                                           const Frame& frame);
 
-// Those of as many ghosts, from the first on, and of as many others with the highest peaks: it takes no longer than a
-// user notices. One for each of the figures; without cells if it was not traced.
+// Traces the first ghosts, and others with the highest peaks, as many as take no longer than a user notices. One for
+// each of the figures; without cells if it was not traced.
 inline constexpr std::size_t kFootprintsByFlux = 40, kFootprintsByPeak = 20;
 [[nodiscard]] std::vector<GhostFootprint> footprints_of(const LensState& lens, const std::vector<GhostFigures>& figures,
                                                         const Light& light, const Frame& frame, const Context& context);

@@ -34,7 +34,7 @@ bool is_shown(const Ui& ui, const Parameter& p) {
   return is_of_use(ui, p) && fits_filter(p, ui.state.parameter_filter);
 }
 
-// Those that have a parameter to show.
+// The groups that have a parameter to show.
 std::vector<std::string_view> groups(const Ui& ui) {
   std::vector<std::string_view> names;
   for (const Parameter& p : params::all_parameters())

@@ -145,7 +145,7 @@ NormalEquations equations_of(const MeasuredFigures& figures, const PyramidLevel&
   return equations;
 }
 
-// What drawings of nearly the same lens differ by.
+// The difference between drawings of nearly the same lens.
 struct DrawingNoise {
   double cost = 0;  // RMS
   Eigen::MatrixXd covariance;  // of the unknowns that fit best

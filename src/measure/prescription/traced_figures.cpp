@@ -22,9 +22,9 @@ GhostFigure figure_of(const GhostMeter& meter, const Ghost& ghost, const LightSo
   return figure;
 }
 
-// What the light's size and the pixels add to the square of a ghost's side in pictures. Rays of a point of light have
-// neither, and ghosts near focus are smaller than both. The light's image in a ghost is its own image times the ghost's
-// speed, which the outermost station where the ghost is says best.
+// Returns how much the light's size and the pixels add to the square of a ghost's side in pictures. Rays of a point of
+// light have neither, and ghosts near focus are smaller than both. The light's image in a ghost is its own image times
+// the ghost's speed, which the outermost station where the ghost is says best.
 std::vector<double> added_px2(const LensStations& stations, Vec2 centre_px, const SweepFigures& figures,
                               std::size_t ghosts) {
   std::vector<double> added(ghosts, 1.0);

@@ -15,8 +15,8 @@ namespace {
 // Fraction of the displacement that a fit may make of all light. The error of bands is added to that of fits, is
 // visible in full and shows in colours.
 constexpr double kBandFraction = 0.6;
-// Of the squared sum of a cell's diagonals on the sensor: less area has a cell in a focus or fold, whose sides say
-// nothing of heights across it.
+// A cell with a smaller area than this, over the squared sum of its diagonals on the sensor, is in a focus or a fold:
+// its sides do not show how heights change across it.
 constexpr double kFlat = 1e-3;
 
 // How far each node is from getting through, as a height over that of what blocks it: 1 at the outline. The iris counts
