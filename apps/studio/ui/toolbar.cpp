@@ -14,36 +14,38 @@
 namespace contrejour::studio {
 namespace {
 
-// The lens's name for people, which stands in its file, and the name that the command line knows it by.
-std::string name_in(const BundledLens& lens) {
-  constexpr std::string_view key = "\nname = \"";
-  const std::size_t at = lens.toml.find(key), from = at + key.size();
-  if (at == std::string_view::npos) return std::string(lens.name);
-  return std::string(lens.toml.substr(from, lens.toml.find('"', from) - from));
+std::vector<ListedLens> listed_lenses() {
+  std::vector<ListedLens> listed;
+  for (const BundledLens& bundled : bundled_lenses()) {
+    const std::string name(bundled.name);
+    const auto lens = find_lens(name);
+    listed.push_back({name, lens ? lens->name : name});
+  }
+  return listed;
 }
 
-void draw_bundled_lens(Ui& ui, const BundledLens& lens, const std::string& name, float second_column) {
+void draw_bundled_lens(Ui& ui, const ListedLens& lens, float second_column) {
   const bool chosen = lens.name == ui.studio.document().lens_name;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::Selectable(fmt::format("{}##{}", name, lens.name).c_str(), chosen)) {
-    ui.studio.open_lens(std::string(lens.name));
+  if (ImGui::Selectable(fmt::format("{}##{}", lens.full_name, lens.name).c_str(), chosen)) {
+    ui.studio.open_lens(lens.name);
     ui.state.lens_filter.clear();
   }
-  ui.registry.record(fmt::format("toolbar/lens/{}", lens.name), name);
-  ImGui::GetWindowDrawList()->AddText({at.x + second_column, at.y}, colours::dim(), std::string(lens.name).c_str());
+  ui.registry.record(fmt::format("toolbar/lens/{}", lens.name), lens.full_name);
+  ImGui::GetWindowDrawList()->AddText({at.x + second_column, at.y}, colours::dim(), lens.name.c_str());
 }
 
 // All lenses of which either name has the text that is typed; Enter takes the first.
 void draw_lens_list(Ui& ui) {
   if (ImGui::IsWindowAppearing()) {
+    if (ui.state.lenses.empty()) ui.state.lenses = listed_lenses();
     ui.state.lens_filter.clear();
     ImGui::SetKeyboardFocusHere();
   }
-  const auto lenses = bundled_lenses();
   float longest = 0, longest_second = 0;
-  for (const BundledLens& lens : lenses) {
-    longest = std::max(longest, text_width(name_in(lens)));
-    longest_second = std::max(longest_second, text_width(std::string(lens.name)));
+  for (const ListedLens& lens : ui.state.lenses) {
+    longest = std::max(longest, text_width(lens.full_name));
+    longest_second = std::max(longest_second, text_width(lens.name));
   }
   const float second = longest + scaled(18);
   ImGui::SetNextItemWidth(second + longest_second + scaled(8));
@@ -51,12 +53,12 @@ void draw_lens_list(Ui& ui) {
       ImGui::InputTextWithHint("##find", "Find a lens", &ui.state.lens_filter, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.registry.record("toolbar/lens/find", ui.state.lens_filter);
   bool is_taken = false, is_empty = true;
-  for (const BundledLens& lens : lenses) {
-    const std::string name = name_in(lens);
-    if (!contains_in_any_case(name, ui.state.lens_filter) && !contains_in_any_case(lens.name, ui.state.lens_filter))
+  for (const ListedLens& lens : ui.state.lenses) {
+    if (!contains_in_any_case(lens.full_name, ui.state.lens_filter) &&
+        !contains_in_any_case(lens.name, ui.state.lens_filter))
       continue;
-    if (entered && !is_taken && !ui.state.lens_filter.empty()) is_taken = ui.studio.open_lens(std::string(lens.name));
-    draw_bundled_lens(ui, lens, name, second);
+    if (entered && !is_taken && !ui.state.lens_filter.empty()) is_taken = ui.studio.open_lens(lens.name);
+    draw_bundled_lens(ui, lens, second);
     is_empty = false;
   }
   if (is_empty) ImGui::TextDisabled("No bundled lens has this in its name.");

@@ -82,6 +82,11 @@ struct NumberDrag {
   float value = 0;
 };
 
+// A bundled lens in the list of lenses.
+struct ListedLens {
+  std::string name, full_name;  // "planar-50", "Zeiss Planar 50mm f/1.4"
+};
+
 // The state of the interface that is neither document nor view.
 struct InterfaceState {
   SideTab side = SideTab::Ghosts;
@@ -93,6 +98,7 @@ struct InterfaceState {
   std::string path, ghost_filter, parameter_filter, lens_filter;
   std::array<std::string, 8> folders;  // in which each dialog opens, as Dialog; empty: the program's
   bool shows_all_files = false, path_wants_keys = false, selects_name = false;  // of file dialogs
+  std::vector<ListedLens> lenses;  // the bundled ones, once their list was opened
   std::string asked_path;  // the file that the user was asked about, since it exists
   GhostOrder ghost_order = GhostOrder::Visibility;
   float side_width = 450, bottom_height = 272;  // at scale 1
