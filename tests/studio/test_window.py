@@ -110,6 +110,16 @@ class Panels(StudioTest):
         self.assertAlmostEqual(refused["radii"][0], 31.5)
         self.assertFalse(state["edited"])
 
+    def test_a_glass_is_taken_from_the_list_by_a_click(self):
+        cell = "prescription/1/glass"
+        state = self.state_after([["key", "f3"], ["frames", 3], ["click", cell], ["type", "N-SF1"], ["frames", 3], ["state", "list.json"],
+                                  ["click", f"{cell}/completions/N-SF11"], ["frames", 3]])
+        self.widget(self.state("list.json"), f"{cell}/completions/N-SF11")
+        self.assertEqual(self.widget(state, cell)["value"], "N-SF11")
+        self.assertEqual(state["history"]["steps"][-1], "glass of surface 1")
+        self.assertFalse([w["id"] for w in state["widgets"] if "/completions/" in w["id"]])
+        self.assertEqual(state["problem"], "")
+
     def test_a_coating_is_typed_for_the_selected_surface(self):
         lines = [["key", "f4"], ["frames", 3], ["click", "coatings/3"], ["click", "coatings/text"], ["type", "v-coat:480"], ["key", "enter"], ["wait"],
                  ["state", "typed.json"], ["click", "coatings/design"], ["frames", 3], ["click", "coatings/design/none"]]

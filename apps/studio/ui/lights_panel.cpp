@@ -31,14 +31,18 @@ struct LightField {
   LightPart part;
 };
 
+void label(const LightField& f) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", f.label);
+  tip(f.help);
+  ImGui::SameLine(scaled(kLabel));
+}
+
+// As wide as what is left of the line, but for its key.
 void field(Ui& ui, std::size_t index, const LightField& f) {
   const auto& [name, label, hint, help, member, part] = f;
   LightEntry light = lights_of(ui.studio.document())[index];
   const std::string id = fmt::format("lights/{}/{}", index + 1, name);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", label);
-  tip(help);
-  ImGui::SameLine(scaled(kLabel));
   std::string text = light.*member;
   const bool is_entered = text_field(ui, id, text, ImGui::GetContentRegionAvail().x - scaled(26), hint);
   light_key(ui, index, part);
@@ -82,19 +86,16 @@ void position_field(Ui& ui, std::size_t index) {
   light_key(ui, index, LightPart::Position);
 }
 
-// A slider over ten stops to each side, where the value is a plain number.
+// A slider, where the value is a plain number, whose field next to it has that number.
 void brightness_slider(Ui& ui, std::size_t index) {
   LightEntry light = lights_of(ui.studio.document())[index];
   const auto value = params::parse_real(light.value.empty() ? ui.studio.document().text("value") : light.value);
   if (!value || !(*value > 0)) return;
   auto amount = static_cast<float>(*value);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("brightness");
-  ImGui::SameLine(scaled(kLabel));
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - scaled(26));
+  ImGui::SetNextItemWidth(0.55F * (ImGui::GetContentRegionAvail().x - scaled(26)));
   ImGui::PushID(static_cast<int>(index) + 1000);
-  if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, amount < 100 ? "%.3g" : "%.0f",
-                         ImGuiSliderFlags_Logarithmic)) {
+  if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, "",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
     light.value = fmt::format("{:.5g}", amount);
     ui.studio.edit(fmt::format("brightness of light {}", index + 1), fmt::format("light/{}/value", index),
                    [&](const Document& d) { return with_light(d, index, light); });
@@ -102,6 +103,7 @@ void brightness_slider(Ui& ui, std::size_t index) {
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
   ImGui::PopID();
   ui.registry.record(fmt::format("lights/{}/brightness", index + 1), fmt::format("{}", amount));
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
 }
 
 // Whether the light is still there.
@@ -122,19 +124,27 @@ bool draw_light(Ui& ui, std::size_t index) {
                                 [&](const Document& d) { return without_light(d, index); }))
     return false;
   position_field(ui, index);
+  static constexpr LightField kBrightness = {
+      "value",
+      "brightness",
+      "1",
+      "A number, the sum of the light's direct image, or with a unit: 12stops, 100000lx, 800cd, 1.6e9nits; or R,G,B",
+      &LightEntry::value,
+      LightPart::Value};
+  label(kBrightness);
   brightness_slider(ui, index);
+  field(ui, index, kBrightness);
   static constexpr LightField kFields[] = {
-      {"value", "with a unit", "1",
-       "The same brightness in other units: the sum of the light's direct image, its R,G,B, or 12stops, 100000lx, "
-       "800cd, 1.6e9nits",
-       &LightEntry::value, LightPart::Value},
       {"colour", "colour", "D65: daylight", "D65, A, a temperature such as 3200K, led, sodium, R,G,B",
        &LightEntry::colour, LightPart::Colour},
       {"size", "size  deg", "0: a point", "Angular diameter in degrees; 0.53 for the sun; 0: a point",
        &LightEntry::size, LightPart::Size},
       {"distance", "distance  mm", "inf: as far as the sun", "From the first surface: 500 (mm), 2m, inf",
        &LightEntry::distance, LightPart::Distance}};
-  for (const LightField& f : kFields) field(ui, index, f);
+  for (const LightField& f : kFields) {
+    label(f);
+    field(ui, index, f);
+  }
   return true;
 }
 

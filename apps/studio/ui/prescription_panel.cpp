@@ -46,16 +46,22 @@ std::string completed_glass(const std::string& text) {
   return names.empty() || text.empty() ? text : names.front();
 }
 
+// The names of a list of completions are taken by a click, which also ends the typing: the field is left in the same
+// frame, so that the name under the mouse is the one that the list had in the frame before.
 void draw_glass_completion(Ui& ui, const std::string& id) {
-  const TextEdit& edit = ui.state.edit;
-  if (edit.id != id || edit.text.empty()) return;
-  const auto names = glasses_near(edit.text, 8);
+  TextEdit& edit = ui.state.edit;
+  if (edit.id != id) return;
+  edit.offered.clear();
+  const auto names = edit.text.empty() ? std::vector<std::string>{} : glasses_near(edit.text, 8);
   if (names.empty()) return;
-  ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + scaled(2)});
-  ImGui::BeginTooltip();
-  for (const std::string& name : names) ImGui::TextUnformatted(name.c_str());
-  if (!glasses_like(edit.text, 1).empty() && names.front() != edit.text) ImGui::TextDisabled("Tab takes the first");
-  ImGui::EndTooltip();
+  const bool tab_completes = !glasses_like(edit.text, 1).empty() && names.front() != edit.text;
+  begin_completions(names.size() + (tab_completes ? 1 : 0));
+  for (const std::string& name : names) {
+    if (completion(name)) edit.offered = name;
+    ui.registry.record(fmt::format("{}/completions/{}", id, name));
+  }
+  if (tab_completes) ImGui::TextDisabled("Tab takes the first");
+  ImGui::End();
 }
 
 // The coating in force: values of the document come before the lens's own.
@@ -74,8 +80,13 @@ void draw_cell(Ui& ui, std::size_t row, LensColumn column) {
   const int number = static_cast<int>(row) + 1;
   std::string text = text_of_cell(ui, row, column);
   const std::string before = text;
-  const bool accepted = text_field(ui, id, text, -1, "", column == LensColumn::Glass ? completed_glass : nullptr);
+  const std::string offered = ui.state.edit.id == id && ImGui::IsMouseClicked(0) ? ui.state.edit.offered : "";
+  bool accepted = text_field(ui, id, text, -1, "", column == LensColumn::Glass ? completed_glass : nullptr);
   if (column == LensColumn::Glass) draw_glass_completion(ui, id);
+  if (!offered.empty()) {
+    text = offered;
+    accepted = true;
+  }
   if (!accepted || text == before) return;
   const std::string name = fmt::format("{} of surface {}", short_name(column), row + 1);
   ui.studio.end_gesture();

@@ -185,6 +185,27 @@ void refuse_text(Ui& ui, const std::string& id, const std::string& text, const s
   ui.state.edit.reason = reason;
 }
 
+void begin_completions(std::size_t lines) {
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax(), padding = ImGui::GetStyle().WindowPadding;
+  const float height = static_cast<float>(lines) * ImGui::GetTextLineHeightWithSpacing() + 2 * padding.y;
+  const bool fits = max.y + height < ImGui::GetIO().DisplaySize.y;
+  ImGui::SetNextWindowPos({min.x, fits ? max.y + scaled(2) : min.y - height - scaled(2)});
+  ImGui::SetNextWindowSize({std::max(max.x - min.x, scaled(180)), height});
+  ImGui::Begin("##completions", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+}
+
+bool completion(const std::string& text) {
+  const ImVec2 min = ImGui::GetCursorScreenPos();
+  const ImVec2 max{min.x + ImGui::GetContentRegionAvail().x, min.y + ImGui::GetTextLineHeight()};
+  // Dear ImGui reports no item as hovered while a text field is active.
+  const bool is_under_mouse = ImGui::IsMouseHoveringRect(min, max);
+  ImGui::Selectable(text.c_str(), is_under_mouse);
+  return is_under_mouse;
+}
+
 void bring_into_sight(const Ui& ui, int surface, int& in_sight) {
   if (ui.studio.selection.surface != surface || in_sight == surface) return;
   ImGui::SetScrollHereY(0.5F);

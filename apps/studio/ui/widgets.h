@@ -49,6 +49,7 @@ enum class Dialog { None, OpenLens, OpenPlate, OpenSweep, SaveAs, Export, Recove
 struct TextEdit {
   std::string id;  // of the widget; empty: none
   std::string text;
+  std::string offered;  // the completion under the mouse; empty: none
   std::string refused_id, refused_text, reason;  // the last text that was not accepted
 };
 
@@ -148,6 +149,12 @@ void heading_row(std::initializer_list<const char*> tips);
 bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint = "",
                 std::string (*complete)(const std::string& text) = nullptr);
 void refuse_text(Ui& ui, const std::string& id, const std::string& text, const std::string& reason);
+
+// A list of completions below the item drawn last, or above it where it would not fit; ends with ImGui::End(). The
+// field keeps the keyboard.
+void begin_completions(std::size_t lines);
+// One of them; true while the mouse is over it.
+[[nodiscard]] bool completion(const std::string& text);
 
 // Scrolls the list to the item drawn last if its surface is selected, once.
 void bring_into_sight(const Ui& ui, int surface, int& in_sight);
