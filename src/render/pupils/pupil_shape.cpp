@@ -10,6 +10,7 @@
 
 #include "render/pupils/clearance_rays.h"
 #include "render/pupils/open_polygon.h"
+#include "render/pupils/pupil_search.h"
 
 namespace contrejour::inline internal::pupils {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row 
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
+constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
 constexpr int kMinGrids = 2, kMaxGrids = 4;
 constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
 constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
@@ -122,6 +124,25 @@ std::optional<Rectangle> next_box(const HalvedGrid& grid) {
   if (!hull) return hull;
   *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
   return grid.balanced(*hull);
+}
+
+// A box around all light, for a pupil that is smaller than the cells of a grid over the window. The ray that is blocked
+// least may lie far from it, beside an opening that is smaller still. Empty where nothing gets through, and without
+// symmetry, for which such a search takes too long.
+std::optional<Rectangle> searched_box(const LensSteps& steps, const Ghost& ghost, const LightFrame& light,
+                                      const EntranceWindow& window) {
+  if (!light.symmetric) return std::nullopt;
+  const LightRays rays{{0.0, 0.0, window.z_mm}, light.source};
+  const Pupil found = find_pupil(PupilRays(PacketPath(steps, ghost, rays), window), {.along_meridian = true});
+  std::optional<Rectangle> hull;
+  for (const Rectangle& box : found.boxes) {
+    const double beside_mm = std::max(std::abs(box.low.y), std::abs(box.high.y));  // and its mirror image
+    const Rectangle both{{box.low.x, -beside_mm}, {box.high.x, beside_mm}};
+    hull = hull ? Rectangle{{std::min(hull->low.x, both.low.x), std::min(hull->low.y, both.low.y)},
+                            {std::max(hull->high.x, both.high.x), std::max(hull->high.y, both.high.y)}}
+                : both;
+  }
+  return hull;
 }
 
 // Collects the open parts of a grid's triangles by blocks of cells.
@@ -233,6 +254,8 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
     open = 0;
     for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
     box = next_box(grid);
+    if (k > 0 || open >= kFew) continue;
+    if (const auto searched = searched_box(steps, ghost, light, window)) box = searched;
   }
   if (open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
   std::size_t least_blocked = 0;

@@ -97,3 +97,19 @@ TEST_CASE("the open part of a triangle has the moments of its polygon") {
   CHECK(rest.moments.area_mm2 == test::approx(0.375));
   CHECK(open_polygon({}, {1.0, 1.0, 1.0}).moments.area_mm2 == 0.0);
 }
+
+TEST_CASE("a pupil smaller than the first grid's cells is found, whatever small opening lies nearer to a ray") {
+  const LensState lens = test::bundled("nikon-80-200", {.focal_length_mm = 140.0, .f_number = 16.0});
+  const ReflectanceTables tables(lens, 550.0);
+  const LensSteps steps(lens, tables);
+  const double width_mm = lens.sensor_width_mm, height_mm = width_mm * 9.0 / 16.0;
+  for (const double tenths_px : {0.0, 11.0, 12.0, 13.0, 14.0}) {  // of a frame of 160 x 90 pixels
+    const double moved_mm = 0.1 * tenths_px * width_mm / 160.0;
+    const Vec2 at_mm{0.2 * width_mm + moved_mm * std::cos(0.3), 0.17 * height_mm - moved_mm * std::sin(0.3)};
+    const LightSource source{direction_for_image_point(lens, at_mm, lens.design_wavelength_nm)};
+    const auto shape = find_pupil_shape(steps, {6, 9}, LightFrame(source, true), entrance_window(lens, source));
+    CAPTURE(tenths_px);
+    REQUIRE(shape.has_value());
+    CHECK(shape->area_mm2 == test::approx(30.8).epsilon(0.01));
+  }
+}
