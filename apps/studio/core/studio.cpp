@@ -131,11 +131,21 @@ void Studio::post_picture() {
   frame_of_picture_ = view.frame;
   auto plate = this->plate();
   if (!plate && plates_.is_reading(document().plate, view.frame)) return;
-  std::vector<Ghost> brightest;
-  for (const GhostFigures& f : figures_)
-    if (has_ghost(*lens_, f.ghost)) brightest.push_back(f.ghost);
   picture_job_.post(
-      {revision_, document().values(), lens_, stars_of(document()), std::move(plate), std::move(brightest)});
+      {revision_, document().values(), lens_, stars_of(document()), std::move(plate), brightest_ghosts()});
+}
+
+std::vector<Ghost> Studio::brightest_ghosts() const {
+  std::vector<double> radii;
+  for (const LightEntry& light : lights_of(document())) radii.push_back(radius_of(light.at, frame_px()));
+  std::vector<Ghost> brightest;
+  if (ranks_ && !radii.empty() && !document().texts.contains("light")) {
+    brightest = brightest_at(*ranks_, radii);
+  } else {
+    for (const GhostFigures& f : figures_) brightest.push_back(f.ghost);
+  }
+  std::erase_if(brightest, [&](const Ghost& ghost) { return !has_ghost(*lens_, ghost); });
+  return brightest;
 }
 
 void Studio::refresh_section() {
@@ -211,6 +221,7 @@ void Studio::update() {
   if (auto figures = figures_job_.take(); figures && figures->error.empty()) {
     figures_ = std::move(figures->figures);
     footprints_ = std::move(figures->footprints);
+    ranks_ = std::move(figures->ranks);
     figures_revision_ = figures->revision;
     ++changes_;
   }

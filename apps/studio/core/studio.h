@@ -121,6 +121,10 @@ class Studio {
   [[nodiscard]] const std::vector<GhostFigures>& figures() const { return figures_; }
   [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // one a figure
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
+  // The ghosts of which late drafts draw the first: the brightest where the lights are now; until the ranks are there,
+  // the brightest where the selected light was at rest.
+  [[nodiscard]] std::vector<Ghost> brightest_ghosts() const;
+  [[nodiscard]] bool has_ranks() const { return ranks_ != nullptr; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
   [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate, view.frame); }
   // The frames of a plate that is a sequence whose files exist.
@@ -185,6 +189,7 @@ class Studio {
   PictureAnswer picture_;
   std::vector<GhostFigures> figures_;
   std::vector<GhostFootprint> footprints_;
+  std::shared_ptr<const GhostRanks> ranks_;
   SectionAnswer section_;
   std::vector<Snapshot> snapshots_;
   std::size_t snapshots_taken_ = 0;
