@@ -87,6 +87,7 @@ bool Studio::push(Result<Document> document, const std::string& name, const std:
   if (!lens) return refuse(lens.error(), merge_key);
   problem_.clear();
   problem_key_.clear();
+  message_ = name;
   history_.push(name, merge_key, std::move(*document));
   lens_ = std::make_shared<const LensState>(std::move(*lens));
   document_changed();
@@ -101,8 +102,28 @@ Vec2 Studio::frame_px() const {
 void Studio::undo() { go_to_step(history_.can_undo() ? history_.position() - 1 : history_.position()); }
 void Studio::redo() { go_to_step(history_.position() + 1); }
 
+bool Studio::add_light(Vec2 at) {
+  const auto lights = lights_of(document());
+  LightEntry light = lights.empty() ? LightEntry{} : lights[std::min(selection.light, lights.size() - 1)];
+  light.at = at;
+  if (!edit("add light", "", [&](const Document& d) { return with_new_light(d, light); })) return false;
+  select_light(lights.size());
+  say(fmt::format("light {} added; Ctrl+Z takes it away", lights.size() + 1));
+  return true;
+}
+
 void Studio::go_to_step(std::size_t step) {
+  const std::size_t before = history_.position();
   history_.go_to(step);
+  const std::size_t now = history_.position();
+  problem_.clear();
+  problem_key_.clear();
+  if (now + 1 == before)
+    say("undone: " + history_.steps()[before].name);
+  else if (now == before + 1)
+    say("redone: " + history_.steps()[now].name);
+  else if (now != before)
+    say("back to: " + history_.steps()[now].name);
   if (document().animation != Animation{}) history_.replace_now(at_frame(document(), view.frame));
   auto lens = params::lens_of(*document().lens, document().values());  // it was configured before
   if (lens) lens_ = std::make_shared<const LensState>(std::move(*lens));

@@ -61,6 +61,8 @@ class Studio {
   using Edit = std::function<Result<Document>(const Document&)>;
   bool edit(const std::string& name, const std::string& merge_key, const Edit& edit);
   void end_gesture() { history_.seal(); }
+  // One like the selected light, which is then selected. at: u, v.
+  bool add_light(Vec2 at);
   void undo();
   void redo();
   void go_to_step(std::size_t step);
@@ -109,6 +111,7 @@ class Studio {
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   [[nodiscard]] const std::string& problem() const { return problem_; }
   [[nodiscard]] const std::string& problem_key() const { return problem_key_; }  // merge key of the refused command
+  // What was done last: the last step of the history, or what its work has answered since.
   [[nodiscard]] const std::string& message() const { return message_; }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] bool is_saved() const { return history_.is_saved(); }
