@@ -11,7 +11,7 @@ namespace {
 
 // Pictures are drawn meanwhile, and come first.
 constexpr int kFiguresThreads = 1;
-constexpr std::chrono::milliseconds kRestBeforeFigures{120}, kRestBeforeRanks{200};
+constexpr std::chrono::milliseconds kRestBeforeFigures{120}, kRestBeforeRanks{400};
 
 Result<FiguresAnswer> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
   const auto light = light_of(order.values, *order.lens, order.light);

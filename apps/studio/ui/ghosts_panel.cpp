@@ -145,12 +145,6 @@ void draw_absence() {
   }
 }
 
-// The frozen headings hide what lies under them.
-bool is_wholly_in_sight() {
-  const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin(), high = ImGui::GetWindowDrawList()->GetClipRectMax();
-  return ImGui::GetItemRectMin().y >= low.y && ImGui::GetItemRectMax().y <= high.y;
-}
-
 void draw_ghost_row(Ui& ui, const GhostRow& row, double largest) {
   const auto& [rank, index] = row;
   const GhostFigures& figures = ui.studio.figures()[index];
@@ -194,6 +188,8 @@ int row_to_bring_into_sight(Ui& ui, const std::vector<GhostRow>& rows) {
   return -1;
 }
 
+constexpr int kPeakColumn = 4;  // left out first where there is no room for all
+
 // room: in the panel, a scroll bar included, so that columns stay where they are when the list becomes short.
 void set_up_ghost_columns(const Ui& ui, float room) {
   const float most = static_cast<float>(ui.studio.figures().size());
@@ -209,6 +205,7 @@ void set_up_ghost_columns(const Ui& ui, float room) {
   float all = ImGui::GetStyle().ScrollbarSize;
   for (const auto& column : columns) all += column.second + 2 * ImGui::GetStyle().CellPadding.x;
   const float left = std::floor(std::max(0.0F, room - all) / 4);
+  ImGui::TableSetColumnEnabled(kPeakColumn, all <= room);
   ImGui::TableSetupScrollFreeze(2, 1);
   for (std::size_t k = 0; k < columns.size(); ++k)
     ImGui::TableSetupColumn(columns[k].first, ImGuiTableColumnFlags_WidthFixed,
@@ -245,7 +242,8 @@ void draw_ghosts_panel(Ui& ui) {
   const auto rows = rows_of(ui);
   draw_summary(ui, rows.size());
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
+                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit |
+                                    ImGuiTableFlags_Hideable;
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(scaled(4), style.CellPadding.y));
   draw_ghost_table(ui, rows, flags);

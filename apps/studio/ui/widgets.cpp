@@ -90,7 +90,8 @@ bool drag_bar(const char* label, float& value, float low, float high, const char
                                                                  : (value - low) / (high - low);
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
   const float right = min.x + std::clamp(part, 0.0F, 1.0F) * (max.x - min.x);
-  ImGui::GetWindowDrawList()->AddRectFilled({min.x, max.y - scaled(3)}, {right, max.y}, colours::kAccent, scaled(2));
+  if (right > min.x + 1)
+    ImGui::GetWindowDrawList()->AddRectFilled({min.x, max.y - scaled(3)}, {right, max.y}, colours::kAccent, scaled(2));
   return changed;
 }
 
@@ -267,9 +268,14 @@ bool completion(const std::string& text) {
   return is_under_mouse;
 }
 
+bool is_wholly_in_sight() {
+  const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin(), high = ImGui::GetWindowDrawList()->GetClipRectMax();
+  return ImGui::GetItemRectMin().y >= low.y && ImGui::GetItemRectMax().y <= high.y;
+}
+
 void bring_into_sight(const Ui& ui, int surface, int& in_sight) {
   if (ui.studio.selection.surface != surface || in_sight == surface) return;
-  ImGui::SetScrollHereY(0.5F);
+  if (!is_wholly_in_sight()) ImGui::SetScrollHereY(0.5F);
   in_sight = surface;
 }
 

@@ -174,6 +174,8 @@ void begin_completions(std::size_t lines);
 [[nodiscard]] bool drag_bar(const char* label, float& value, float low, float high, const char* format,
                             ImGuiSliderFlags flags = 0);
 
+// The item drawn last, in a list that scrolls.
+[[nodiscard]] bool is_wholly_in_sight();
 // Scrolls the list to the item drawn last if its surface is selected, once.
 void bring_into_sight(const Ui& ui, int surface, int& in_sight);
 
