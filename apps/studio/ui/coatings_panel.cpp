@@ -68,9 +68,14 @@ void draw_list(Ui& ui) {
   ImGui::SameLine(scaled(kNameAt));
   ImGui::TextDisabled("with the coating");
   ImGui::BeginChild("##rows");
+  const int in_sight_before = ui.state.coating_in_sight;
   const auto& surfaces = ui.studio.lens().surfaces;
   for (std::size_t k = 0; k < surfaces.size(); ++k)
     if (reflects(surfaces[k])) draw_list_row(ui, static_cast<int>(k) + 1, surfaces[k]);
+  // The headings above would cut a row in half.
+  const float row = ImGui::GetTextLineHeightWithSpacing(), at = ImGui::GetScrollY();
+  const bool scrolls_to_row = ui.state.coating_in_sight != in_sight_before;
+  if (at < ImGui::GetScrollMaxY() && !scrolls_to_row) ImGui::SetScrollY(row * std::round(at / row));
   ImGui::EndChild();
 }
 

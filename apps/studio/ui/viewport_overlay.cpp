@@ -126,7 +126,7 @@ void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
                         std::fmax(text.y, map.canvas_min.y + scaled(4))};
   list.AddRectFilled({label.x - scaled(5), label.y - scaled(1)},
                      {label.x + size.x + scaled(5), label.y + size.y + scaled(2)}, colours::kShade, scaled(3));
-  list.AddText(label, colour, name.c_str());
+  list.AddText(label, colours::kSelected, name.c_str());
 }
 
 void draw_picture_badge(Ui& ui, bool is_short) {
