@@ -26,9 +26,9 @@ struct GhostRanks {
 };
 
 // All ghosts, the brightest first, by their light for lights at these radii together: linear between two of the ranks'
-// radii, in steps of a quarter, so that the order seldom changes while a light moves. On the five papers' lenses the
-// first eight have 0.95 to 1.00 of the light of the true first eight, 0.8 at least; those of a light elsewhere in the
-// field have 0.2 to 0.8.
+// radii, in steps of a quarter, so that the order seldom changes while a light moves. Accuracy: on five lenses the
+// first eight have 0.96 to 1.00 of the light of the true first eight in the mean, 0.79 at least; those of another place
+// in the field have 0.2 to 0.8 (docs/studio.md).
 [[nodiscard]] std::vector<Ghost> brightest_at(const GhostRanks& ranks, std::span<const double> radii);
 
 [[nodiscard]] double radius_of(Vec2 uv, Vec2 frame_px);
