@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of documents as the values that the command line takes, and their history.
+#include <cmath>
 #include <random>
 
 #include <doctest/doctest.h>
@@ -7,9 +8,11 @@
 
 #include "contrejour/expert/ghost.h"
 #include "contrejour/expert/parameter_text.h"
+#include "contrejour/expert/settings.h"
 #include "studio/core/coating_curves.h"
 #include "studio/core/command_line.h"
 #include "studio/core/ghost_edits.h"
+#include "studio/core/ghost_summary.h"
 #include "studio/core/history.h"
 #include "studio/core/lights.h"
 #include "studio/core/prescription_table.h"
@@ -90,6 +93,48 @@ TEST_CASE("a surface has one coating, that of its last edit") {
   CHECK(*design_wavelength_nm(d, 1) == 500);
   CHECK(with_design_wavelength("quarter-wave:500:1.45", 620) == "quarter-wave:620.0:1.45");
   CHECK_FALSE(with_surface_coating(d, 1, "paint"));
+  // The lens's file calls its own films by a name, which is no value.
+  CHECK(own == "amber");
+  CHECK(with_surface_coating(d, 1, "amber")->list("coating-at").empty());
+  d = *with_value(d, "coating", "v-coat");
+  CHECK(with_surface_coating(d, 1, "amber")->list("coating-at") == std::vector<std::string>{"1:quarter-wave:480:1.38"});
+}
+
+TEST_CASE("the luminous reflectance is that of the curve under the eye's sensitivity") {
+  // Bare crown glass, and six films that hardly reflect but at the end of the spectrum.
+  Document d = first_document();
+  const auto reflectance_with = [&](const char* coating) {
+    const Document coated = *with_surface_coating(d, 1, coating);
+    const auto lens = params::lens_of(*coated.lens, coated.values());
+    return std::pair(luminous_reflectance(lens->surfaces[0]), reflectance_curves(lens->surfaces[0]));
+  };
+  const double n = refractive_index(d.lens->surfaces[0].glass_after, 555);
+  CHECK(reflectance_with("none").first == test::approx((n - 1) * (n - 1) / ((n + 1) * (n + 1))).epsilon(0.01));
+  const auto [mean, curves] = reflectance_with("broadband-6");
+  // The eye's sensitivity as a normal distribution about 559 nm, 42 nm wide.
+  double sum = 0, weights = 0;
+  for (std::size_t k = 0; k < kCurvePoints; ++k) {
+    const double from = (380 + 360.0 * static_cast<double>(k) / (kCurvePoints - 1) - 559) / 42;
+    weights += std::exp(-0.5 * from * from);
+    sum += std::exp(-0.5 * from * from) * curves.reflectance[0][k];
+  }
+  CHECK(mean == test::approx(sum / weights).epsilon(0.15));
+  CHECK(curves.reflectance[0][0] > 5 * mean);
+}
+
+TEST_CASE("the line over the list of ghosts says whose they are, and which are shown") {
+  Document d = first_document();
+  std::vector<GhostFigures> figures(20);
+  for (int k = 0; k < 20; ++k) {
+    figures[static_cast<std::size_t>(k)].ghost = {1, k + 2};
+    figures[static_cast<std::size_t>(k)].relative_flux = 0.0001;
+  }
+  CHECK(summary_of_ghosts(d, figures, 0, 20) == "20 ghosts, 0.20 % of the light; ten carry 50 % of it");
+  CHECK(summary_of_ghosts(*with_solo(d, {1, 4}, true), figures, 0, 20) ==
+        "1 of 20 ghosts shown (solo), 0.01 % of the light");
+  CHECK(summary_of_ghosts(*with_mute(d, {1, 4}, true), figures, 0, 20).starts_with("19 of 20 ghosts shown"));
+  d = *with_new_light(d, {{0.6, 0.6}, "", "", "", ""});
+  CHECK(summary_of_ghosts(d, figures, 1, 3).starts_with("Light 2: 3 listed of 20 ghosts"));
 }
 
 TEST_CASE("the command line quotes what a shell would take apart") {

@@ -2,6 +2,7 @@
 #include "studio/core/file_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -26,6 +27,9 @@ TEST_CASE("a file dialog offers folders and the files of its kind") {
   CHECK(names(FileKind::Plate) == "zoo/ plate.exr ");
   CHECK(names(FileKind::Session) == "zoo/ shot.session.json ");
   CHECK(names(FileKind::Any) == "zoo/ a.TXT b.zmx notes.md plate.exr shot.session.json ");
+  constexpr std::array<std::string_view, 2> kPictures = {".exr", ".png"};
+  REQUIRE(listing_of(folder, kPictures).entries.size() == 2);
+  CHECK(listing_of(folder, kPictures).entries[1].name == "plate.exr");
   CHECK(listing_of(folder / "missing", FileKind::Any).entries.empty());
   CHECK(folder_of(folder.string()) == folder);
   CHECK(folder_of((folder / "new.toml").string()) == folder);

@@ -112,9 +112,14 @@ class Recovery(StudioTest):
         self.assertFalse(state["history"]["saved"])
 
     def test_unsaved_changes_are_asked_about(self):
-        state = self.state_after([["drag", "viewport/light/1", 50, 50, 5], ["close"], ["frames", 3], ["state", "asked.json"], ["click", "quit/cancel"]])
+        self.run_studio([["wait"], ["drag", "viewport/light/1", 50, 50, 5], ["autosave"], ["close"], ["frames", 3], ["state", "asked.json"],
+                         ["click", "quit/cancel"], ["frames", 2], ["state", "state.json"], ["key", "ctrl+q"], ["frames", 3], ["click", "quit/discard"],
+                         ["frames", 3], ["state", "later.json"]])
+        state = self.state()
         self.assertIn("quit/discard", [w["id"] for w in self.state("asked.json")["widgets"]])
         self.assertEqual(state["dialog"], 0)
+        self.assertFalse((self.folder / "later.json").exists())
+        self.assertEqual(list((self.folder / "state").rglob("autosave*")), [])
 
 
 def children_of(pid):

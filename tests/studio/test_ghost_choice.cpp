@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which ghost a click selects, against pictures of each ghost alone; the order of the list.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +13,7 @@
 #include "contrejour/expert/requests.h"
 #include "contrejour/expert/settings.h"
 #include "contrejour/render.h"
+#include "studio/core/document.h"
 #include "studio/core/figures_job.h"
 #include "studio/core/ghost_order.h"
 #include "studio/core/ghosts_under.h"
@@ -90,6 +92,26 @@ TEST_CASE("a click selects the ghost that is brightest there, by its picture alo
     right += is_right ? 1 : 0;
   }
   CHECK(right >= 5);  // of six: the borders of footprints are known to a part of a cell
+}
+
+TEST_CASE("the outline of a ghost is closed, also where the rays beside it fail") {
+  const Document document = first_document();
+  const params::Values values = document.values();
+  const LensState lens = *params::lens_of(*document.lens, values);
+  const auto light = light_of(values, lens, 0);
+  REQUIRE(light);
+  const Frame frame = figures_request(values, lens, &*light)->frame;
+  for (const Ghost ghost : {Ghost{12, 15}, Ghost{13, 15}, Ghost{14, 16}}) {
+    const GhostFootprint footprint = footprint_of(lens, ghost, *light, frame);
+    INFO(ghost_name(ghost));
+    REQUIRE(footprint.border_px.size() > 20);
+    std::vector<Vec2> ends;
+    for (const auto& side : footprint.border_px) ends.insert(ends.end(), side.begin(), side.end());
+    const auto meets = [&](Vec2 a) {
+      return std::ranges::count_if(ends, [&](Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y) < 0.01; }) >= 2;
+    };
+    CHECK(std::ranges::count_if(ends, [&](Vec2 end) { return !meets(end); }) == 0);
+  }
 }
 
 TEST_CASE("a veil over the frame and a spot come after a disc that one sees first") {

@@ -51,12 +51,16 @@ TEST_CASE("undo goes back over opened lenses, and the selection follows") {
   CHECK(studio.lens().surfaces.size() < 10);
   CHECK(studio.selection.surface == 0);
   CHECK_FALSE(studio.selection.ghost);
+  CHECK(studio.history().steps().back().name == "open lens " + studio.document().lens->name);
   CHECK_FALSE(studio.open_lens("no-such-lens"));
   CHECK(studio.document().lens_name == "cooke-triplet");
   studio.undo();
   CHECK(studio.document().lens_name == "distagon-25");
   CHECK(studio.document().texts == small_scene().texts);
+  CHECK(studio.message().starts_with("undone: open lens "));
+  CHECK(studio.problem().empty());
   studio.redo();
+  CHECK(studio.message().starts_with("redone: open lens "));
   CHECK(studio.document().lens_name == "cooke-triplet");
 }
 
@@ -68,6 +72,7 @@ TEST_CASE("a saved session opens again with its view, and keeps what others wrot
   Studio studio("first", scene, {});
   studio.edit("move", "", move_to({-0.25, 0.5}));
   studio.view.zoom = 2.5;
+  studio.view.interface_scale = 1.5;
   studio.view.transform = ViewTransform::FalseColour;
   CHECK_FALSE(studio.is_saved());
   REQUIRE(studio.save_session(file));
@@ -79,6 +84,7 @@ TEST_CASE("a saved session opens again with its view, and keeps what others wrot
   CHECK(other.file() == file);
   CHECK(lights_of(other.document())[0].at == Vec2{-0.25, 0.5});
   CHECK(other.view.zoom == 2.5);
+  CHECK(other.view.interface_scale == 1.5);
   CHECK(other.view.transform == ViewTransform::FalseColour);
   CHECK(other.document().others[0] == SessionMember{"written-by-another", "{\"x\":1}"});
   CHECK_FALSE(other.open_session((folder / "missing.session.json").string()));
@@ -108,6 +114,7 @@ TEST_CASE("work of a program that has died is offered again, that of a running o
   CHECK_FALSE(studio.is_saved());
   CHECK(studio.document().others.empty());
   CHECK(studio.lost_work().empty());
+  CHECK(studio.message() == "recovered the unsaved work of my file.session.json");
   studio.forget_autosave();
   CHECK(std::distance(std::filesystem::directory_iterator(states), std::filesystem::directory_iterator()) == 1);
 }

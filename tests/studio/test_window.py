@@ -45,7 +45,8 @@ class Viewport(StudioTest):
         added, nudged = self.state("added.json"), self.state("nudged.json")
         self.assertEqual(len(added["lights"]), 2)
         self.assertAlmostEqual(added["lights"][1]["at"][0], 0.7, delta=0.01)
-        self.assertEqual(added["selection"]["light"], 1)
+        self.assertEqual((added["selection"]["light"], added["selection"]["ghost"]), (1, ""))
+        self.assertEqual(added["message"], "light 2 added; Ctrl+Z takes it away")
         self.assertAlmostEqual((nudged["lights"][1]["at"][0] - added["lights"][1]["at"][0]) * 320, 1, delta=0.01)
         self.assertAlmostEqual((nudged["lights"][1]["at"][1] - added["lights"][1]["at"][1]) * 180, 10, delta=0.01)
         self.assertEqual(len(state["lights"]), 1)
@@ -73,7 +74,8 @@ class Panels(StudioTest):
         first = self.state_after([])
         brightest = first["ghosts"][0]
         u, v = brightest["centre"][0] / 320, brightest["centre"][1] / 180
-        lines = [["click", f"ghosts/{brightest['ghost']}"], ["wait"], ["state", "list.json"], ["key", "s"], ["wait"],
+        lines = [["click", f"ghosts/{brightest['ghost']}"], ["wait"], ["state", "list.json"], ["key", "["], ["frames", 4], ["state", "last.json"],
+                 ["key", "]"], ["key", "s"], ["wait"],
                  ["move", "viewport/picture", 0.5, 0.5], ["frames", 2], ["state", "solo.json"],
                  ["key", "a"], ["key", "m"], ["wait"], ["state", "muted.json"], ["key", "]"]]
         if 0.02 < u < 0.98 and 0.02 < v < 0.98:
@@ -85,6 +87,11 @@ class Panels(StudioTest):
         self.assertIn(f"surface {j}, then at {i}", self.widget(chosen, "section/legend")["value"])
         self.assertEqual(self.state("solo.json")["values"]["select"], [f"list:{brightest['ghost']}"])
         self.assertEqual(self.state("solo.json")["shown"]["ghosts"], 1)
+        count = len(first["ghosts"])
+        self.assertTrue(self.widget(self.state("solo.json"), "ghosts/summary")["value"].startswith(f"1 of {count} ghosts shown (solo)"))
+        last = self.widget(self.state("last.json"), "ghosts/" + self.state("last.json")["selection"]["ghost"])
+        self.assertEqual(last["value"], "selected")
+        self.assertLess(last["rect"][3], self.widget(first, "status")["rect"][1])
         probe = self.widget(self.state("solo.json"), "status/probe")["value"]
         self.assertTrue(probe.endswith(("no ghost here", f"ghost {brightest['ghost']}")), probe)
         self.assertTrue(self.state("muted.json")["values"]["ghost"][0].startswith(f"{brightest['ghost']}:gain=0,"))
@@ -109,6 +116,8 @@ class Panels(StudioTest):
         self.assertIn("wide", refused["problem"])
         self.assertAlmostEqual(refused["radii"][0], 31.5)
         self.assertFalse(state["edited"])
+        self.assertNotEqual(self.widget(state, cell)["value"], "wide")
+        self.assertEqual((state["problem"], state["message"]), ("", "undone: radius of surface 1"))
 
     def test_a_glass_is_taken_from_the_list_by_a_click(self):
         cell = "prescription/1/glass"
@@ -149,11 +158,16 @@ class Panels(StudioTest):
 
     def test_help_lists_keys_and_tab_hides_panels(self):
         lines = [["key", "f1"], ["frames", 2], ["state", "help.json"], ["key", "escape"], ["click", "ghosts/filter"], ["frames", 2],
-                 ["key", "escape"], ["key", "escape"], ["frames", 2], ["key", "tab"]]
+                 ["key", "escape"], ["key", "escape"], ["frames", 2], ["key", "ctrl+="], ["frames", 3], ["state", "larger.json"], ["key", "ctrl+0"],
+                 ["frames", 3], ["key", "tab"]]
         state = self.state_after(lines)
         self.assertTrue(self.state("help.json")["help"])
         self.assertFalse(state["help"])
         self.assertFalse(state["panels"])
+        larger = self.state("larger.json")
+        height = [s["rect"][3] - s["rect"][1] for s in (self.widget(each, "toolbar/help") for each in (state, larger))]
+        self.assertEqual((larger["scale"], state["scale"]), (1.25, 1))
+        self.assertAlmostEqual(height[1] / height[0], 1.25, delta=0.05)
 
     def test_nothing_is_clipped_at_double_size_either(self):
         bars = ("toolbar", "tab", "viewport", "dialog", "prescription/insert", "prescription/scale", "coatings/label", "lights/add", "ghosts/all")

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "contrejour/expert/parameter_text.h"
 #include "contrejour/expert/settings.h"
@@ -29,6 +30,22 @@ double reflectance_at(const SurfaceState& s, const Coating& coating, double angl
 
 Coating placed(const SurfaceState& s) { return placed_on(s.coating, s.before, s.after); }
 
+// A coating that a file has given a name, as a value; empty where no value says it.
+std::string value_of(const Coating& coating) {
+  if (const auto* film = std::get_if<QuarterWave>(&coating.films))
+    return fmt::format("quarter-wave:{}:{}", film->lambda0_nm, film->n);
+  const auto* stack = std::get_if<FilmStack>(&coating.films);
+  if (stack == nullptr) return "";
+  std::vector<std::string> layers;
+  for (const FilmLayer& layer : stack->layers) {
+    if (layer.material.name.empty() && layer.material.n.imag() != 0) return "";
+    const std::string material =
+        layer.material.name.empty() ? fmt::format("{}", layer.material.n.real()) : layer.material.name;
+    layers.push_back(fmt::format("{}@{}", material, layer.thickness_nm));
+  }
+  return fmt::format("stack:{}", fmt::join(layers, ","));
+}
+
 std::string number_of(const std::string& text) { return text.substr(0, text.find(':')); }
 
 }  // namespace
@@ -45,11 +62,8 @@ ReflectanceCurves reflectance_curves(const SurfaceState& surface) {
   return curves;
 }
 
-double mean_reflectance(const SurfaceState& surface) {
-  const Coating coating = placed(surface);
-  double sum = 0;
-  for (std::size_t k = 0; k < kCurvePoints; k += 8) sum += reflectance_at(surface, coating, 0, lambda_of_point(k));
-  return sum / (kCurvePoints / 8);
+double luminous_reflectance(const SurfaceState& surface) {
+  return luminance(reflected_rgb(surface), ColourSpace::Rec709);
 }
 
 Rgb reflected_rgb(const SurfaceState& surface) {
@@ -67,14 +81,28 @@ std::string coating_of_surface(const Document& document, int surface) {
   for (auto text = texts.rbegin(); text != texts.rend(); ++text)
     if (number_of(*text) == number) return text->substr(number.size() + 1);
   if (const std::string all = document.text("coating"); !all.empty()) return all;
+  return own_coating(document, surface);
+}
+
+std::string own_coating(const Document& document, int surface) {
   return cell_text(*document.lens, static_cast<std::size_t>(surface) - 1, LensColumn::Coating);
 }
+
+bool is_only_a_name(const std::string& coating) { return !params::parse_coating(coating); }
 
 Result<Document> with_surface_coating(Document document, int surface, const std::string& coating) {
   const std::string number = std::to_string(surface);
   auto texts = document.list("coating-at");
   std::erase_if(texts, [&](const std::string& text) { return number_of(text) == number; });
-  texts.push_back(number + ":" + coating);
+  const bool is_own = is_only_a_name(coating) && coating == own_coating(document, surface);
+  const std::string all = document.text("coating");
+  const std::string films =
+      is_own ? value_of(document.lens->surfaces[static_cast<std::size_t>(surface) - 1].coating) : coating;
+  if (films.empty() && !all.empty())
+    return invalid_argument(
+        fmt::format("the coating {} of all surfaces stands in place of \"{}\"; reset it first (Parameters, coating)",
+                    all, coating));
+  if (!is_own || !all.empty()) texts.push_back(number + ":" + films);
   return with_values(std::move(document), "coating-at", texts);
 }
 

@@ -22,12 +22,18 @@ struct ReflectanceCurves {
 };
 [[nodiscard]] ReflectanceCurves reflectance_curves(const SurfaceState& surface);
 
-// At normal incidence: the mean over the curve, and the colour of the reflection of white light.
-[[nodiscard]] double mean_reflectance(const SurfaceState& surface);
+// At normal incidence: the reflectance of daylight (D65) as the eye weighs its wavelengths, and the colour of the
+// reflection of white light.
+[[nodiscard]] double luminous_reflectance(const SurfaceState& surface);
 [[nodiscard]] Rgb reflected_rgb(const SurfaceState& surface);
 
 // The coating that the document's values give this surface (1-based), or else the lens's own, as text.
 [[nodiscard]] std::string coating_of_surface(const Document& document, int surface);
+// The coating that the lens's file gives this surface, as text. It may be a name of the file's, which no value can be.
+[[nodiscard]] std::string own_coating(const Document& document, int surface);
+[[nodiscard]] bool is_only_a_name(const std::string& coating);
+// The name of the lens's own coating takes away the one in its place. Errors: also the name of a measured coating while
+// the document's `coating` replaces those of all surfaces.
 [[nodiscard]] Result<Document> with_surface_coating(Document document, int surface, const std::string& coating);
 
 // The wavelength that a design is made for; none where the coating has no such number.

@@ -141,6 +141,18 @@ std::string usual_file(ExportKind kind) {
   return files[static_cast<std::size_t>(kind)];
 }
 
+std::vector<std::string_view> endings_of(ExportKind kind) {
+  switch (kind) {
+    case ExportKind::Picture:
+    case ExportKind::Frames: return {".exr", ".png"};
+    case ExportKind::Layers: return {".exr"};
+    case ExportKind::Lens: return {".toml", ".zmx", ".seq"};
+    case ExportKind::Look: return {".toml"};
+    case ExportKind::Report: return {".html"};
+  }
+  return {};
+}
+
 Result<void> check_export(const ExportOrder& order) {
   if (auto ok = check_name(order); !ok) return ok;
   const auto file = OutputFile::create(order.file);  // goes away without a commit

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contrejour/context.h"
@@ -23,6 +24,7 @@ inline constexpr std::array<ExportKind, 6> kExportKinds = {ExportKind::Picture, 
 [[nodiscard]] const char* name_of(ExportKind kind);
 [[nodiscard]] const char* help_of(ExportKind kind);
 [[nodiscard]] std::string usual_file(ExportKind kind);  // "flare.exr"
+[[nodiscard]] std::vector<std::string_view> endings_of(ExportKind kind);  // that its files may have
 
 struct ExportOrder {
   ExportKind kind = ExportKind::Picture;

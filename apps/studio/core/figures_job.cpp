@@ -11,7 +11,7 @@ namespace {
 
 // Pictures are drawn meanwhile, and come first.
 constexpr int kFiguresThreads = 1;
-constexpr std::chrono::milliseconds kRestBeforeFigures{120};
+constexpr std::chrono::milliseconds kRestBeforeFigures{120}, kRestBeforeRanks{400};
 
 Result<FiguresAnswer> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
   const auto light = light_of(order.values, *order.lens, order.light);
@@ -22,8 +22,33 @@ Result<FiguresAnswer> figures_of(const FiguresOrder& order, const std::atomic<bo
   auto figures = ghost_figures(*order.lens, *request, context);
   if (!figures) return tl::unexpected(figures.error());
   auto footprints = footprints_of(*order.lens, *figures, *light, request->frame, context);
-  return FiguresAnswer{order.revision, order.light, std::move(*figures), std::move(footprints), {}};
+  return FiguresAnswer{order.revision, order.light, std::move(*figures), std::move(footprints), {}, nullptr};
 }
+
+// Keeps the ranks of the lens.
+class FiguresWorker {
+ public:
+  void work(const FiguresOrder& order, FiguresJob::Control& control) {
+    if (!control.rests_for(kRestBeforeFigures)) return;
+    auto figures = figures_of(order, control.is_outdated());
+    if (control.is_outdated()) return;
+    if (!figures) return control.publish({order.revision, order.light, {}, {}, figures.error().to_string(), nullptr});
+    figures->ranks = ranks_.find(order.values, *order.lens);
+    control.publish(*figures);
+    if (!figures->ranks) add_ranks(order, std::move(*figures), control);
+  }
+
+ private:
+  void add_ranks(const FiguresOrder& order, FiguresAnswer figures, FiguresJob::Control& control) {
+    control.goes_on_for_later();
+    if (!control.rests_for(kRestBeforeRanks)) return;
+    figures.ranks =
+        ranks_.measure(order.values, *order.lens, {.threads = kFiguresThreads, .cancel = &control.is_outdated()});
+    if (figures.ranks && !control.is_outdated()) control.publish(std::move(figures));
+  }
+
+  KeptRanks ranks_;
+};
 
 }  // namespace
 
@@ -41,14 +66,8 @@ double angle_from_axis_rad(const Light& light) {
 }
 
 FiguresJob::Work figures_work() {
-  return [](const FiguresOrder& order, FiguresJob::Control& control) {
-    if (!control.rests_for(kRestBeforeFigures)) return;
-    auto figures = figures_of(order, control.is_outdated());
-    if (control.is_outdated()) return;
-    if (figures)
-      control.publish(std::move(*figures));
-    else
-      control.publish({order.revision, order.light, {}, {}, figures.error().to_string()});
+  return [worker = std::make_shared<FiguresWorker>()](const FiguresOrder& order, FiguresJob::Control& control) {
+    worker->work(order, control);
   };
 }
 

@@ -13,6 +13,7 @@
 #include "contrejour/expert/parameter_values.h"
 #include "contrejour/ghost_figures.h"
 #include "studio/core/ghost_footprint.h"
+#include "studio/core/ghost_ranks.h"
 #include "studio/core/latest_job.h"
 
 namespace contrejour::studio {
@@ -30,8 +31,10 @@ struct FiguresAnswer {
   std::vector<GhostFigures> figures;  // pixels are those of --size
   std::vector<GhostFootprint> footprints;  // one for each of them (ghost_footprint.h)
   std::string error;
+  std::shared_ptr<const GhostRanks> ranks;  // of a light elsewhere; null: not measured yet
 };
 
+// The figures are published first. The ranks take longer, and follow with them once the lens has them.
 using FiguresJob = LatestJob<FiguresOrder, FiguresAnswer>;
 [[nodiscard]] FiguresJob::Work figures_work();
 

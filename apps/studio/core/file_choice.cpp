@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
 #include <string_view>
 
 #include "contrejour/expert/plate.h"
@@ -36,7 +37,10 @@ bool is_of_kind(const std::filesystem::path& file, FileKind kind) {
   return true;
 }
 
-FolderListing listing_of(const std::filesystem::path& folder, FileKind kind) {
+namespace {
+
+FolderListing listing_where(const std::filesystem::path& folder,
+                            const std::function<bool(const std::filesystem::path&)>& is_listed) {
   FolderListing listing;
   std::error_code code;
   for (auto at = std::filesystem::directory_iterator(folder, code);
@@ -45,7 +49,7 @@ FolderListing listing_of(const std::filesystem::path& folder, FileKind kind) {
     std::error_code unknown;
     const bool is_folder = at->is_directory(unknown);
     if (name.starts_with(".")) continue;
-    if (!is_folder && !is_of_kind(at->path(), kind))
+    if (!is_folder && !is_listed(at->path()))
       ++listing.others;
     else if (listing.entries.size() < kMostEntries)
       listing.entries.push_back({name, is_folder});
@@ -54,6 +58,18 @@ FolderListing listing_of(const std::filesystem::path& folder, FileKind kind) {
     return a.is_folder != b.is_folder ? a.is_folder : a.name < b.name;
   });
   return listing;
+}
+
+}  // namespace
+
+FolderListing listing_of(const std::filesystem::path& folder, FileKind kind) {
+  return listing_where(folder, [&](const std::filesystem::path& file) { return is_of_kind(file, kind); });
+}
+
+FolderListing listing_of(const std::filesystem::path& folder, std::span<const std::string_view> endings) {
+  return listing_where(folder, [&](const std::filesystem::path& file) {
+    return std::ranges::find(endings, ending_of(file)) != endings.end();
+  });
 }
 
 std::filesystem::path folder_of(const std::string& path) {

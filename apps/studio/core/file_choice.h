@@ -4,7 +4,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace contrejour::studio {
@@ -25,6 +27,8 @@ struct FolderListing {
 [[nodiscard]] bool is_of_kind(const std::filesystem::path& file, FileKind kind);
 // At most 400 entries; none for a folder that cannot be read.
 [[nodiscard]] FolderListing listing_of(const std::filesystem::path& folder, FileKind kind);
+// The same of files whose names have one of these endings, in small letters with their full stop.
+[[nodiscard]] FolderListing listing_of(const std::filesystem::path& folder, std::span<const std::string_view> endings);
 
 // The folder to list for a path that is being typed: itself, or the one that the file would be in.
 [[nodiscard]] std::filesystem::path folder_of(const std::string& path);

@@ -58,13 +58,23 @@ bool is_solo(const Document& document, const Ghost& ghost) {
 
 bool has_solo(const Document& document) { return !solo_ghosts(document).empty(); }
 
-bool is_drawn(const Document& document, const Ghost& ghost) {
-  if (is_muted(document, ghost)) return false;
+DrawnGhosts::DrawnGhosts(const Document& document) : solo_(solo_ghosts(document)) {
+  for (const std::string& text : document.list("ghost")) {
+    const auto adjustment = params::parse_ghost_adjustment(text);
+    if (adjustment && adjustment->surface == 0 && adjustment->gain == 0.0) muted_.push_back(adjustment->ghost);
+  }
   const auto selection = params::parse_selection(document.text("select"));
-  if (!selection) return true;
-  if (const auto* surface = std::get_if<SelectSurface>(&*selection)) return ghost.reflects_at(surface->surface);
-  return !has_solo(document) || is_solo(document, ghost);
+  const auto* surface = selection ? std::get_if<SelectSurface>(&*selection) : nullptr;
+  if (surface != nullptr) surface_ = surface->surface;
 }
+
+bool DrawnGhosts::operator()(const Ghost& ghost) const {
+  const auto has = [&](const std::vector<Ghost>& ghosts) { return std::ranges::find(ghosts, ghost) != ghosts.end(); };
+  if (has(muted_) || (surface_ > 0 && !ghost.reflects_at(surface_))) return false;
+  return solo_.empty() || has(solo_);
+}
+
+bool is_drawn(const Document& document, const Ghost& ghost) { return DrawnGhosts(document)(ghost); }
 
 Result<Document> with_mute(Document document, const Ghost& ghost, bool muted) {
   return with_gain(std::move(document), ghost, muted ? 0.0 : 1.0);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "contrejour/expert/ghost_id.h"
 #include "contrejour/expert/ghost_options.h"
@@ -14,7 +15,17 @@ namespace contrejour::studio {
 [[nodiscard]] bool is_muted(const Document& document, const Ghost& ghost);
 [[nodiscard]] bool is_solo(const Document& document, const Ghost& ghost);
 [[nodiscard]] bool has_solo(const Document& document);
-// It is neither muted nor hidden by others that are solo, nor by the surface to which the document limits ghosts.
+// Ghosts that are neither muted nor hidden by others that are solo, nor by the surface to which the document limits
+// them.
+class DrawnGhosts {
+ public:
+  explicit DrawnGhosts(const Document& document);
+  [[nodiscard]] bool operator()(const Ghost& ghost) const;
+
+ private:
+  std::vector<Ghost> muted_, solo_;
+  int surface_ = 0;  // 0: any
+};
 [[nodiscard]] bool is_drawn(const Document& document, const Ghost& ghost);
 // The adjustment of this ghost alone, or one that changes nothing.
 [[nodiscard]] GhostAdjustment adjustment_of(const Document& document, const Ghost& ghost);

@@ -24,6 +24,7 @@ struct Window {
 };
 
 struct Landing {
+  Vec2 entrance_mm;
   bool is_ray = false;  // it reaches the sensor, if nothing blocks it
   Vec2 sensor_mm;
   double blocked = 1;  // <= 0: it gets through
@@ -36,19 +37,48 @@ const Landing& at(const Landings& landings, int column, int row) {
   return landings[static_cast<std::size_t>(row * kSide + column)];
 }
 
-Landings land(const OpticalPath& path, const LensState& lens, const LightSource& source, double z_mm,
-              const Window& window) {
+// A ghost's rays from a light.
+struct GhostRays {
+  const LensState& lens;
+  OpticalPath path;
+  LightSource source;
+  double z_mm;  // of the entrance plane
+
+  [[nodiscard]] Landing from(Vec2 entrance_mm) const {
+    const Vec3 point{entrance_mm.x, entrance_mm.y, z_mm};
+    const TracedRay ray = trace(path, {point, source.direction_at(point)});
+    if (ray.status != RayStatus::Ok) return {entrance_mm, false, {}, 1.0, 0.0};
+    return {entrance_mm, true, ray.sensor_mm, blocked_by(ray, path, lens.iris), ray.transmission};
+  }
+};
+
+Landings land(const GhostRays& rays, const Window& window) {
   Landings landings;
   for (int row = 0; row < kSide; ++row)
-    for (int column = 0; column < kSide; ++column) {
-      const Vec2 place = window.at(column, row);
-      const Vec3 point{place.x, place.y, z_mm};
-      const TracedRay ray = trace(path, {point, source.direction_at(point)});
-      const bool is_ray = ray.status == RayStatus::Ok;
-      landings.push_back(
-          {is_ray, ray.sensor_mm, is_ray ? blocked_by(ray, path, lens.iris) : 1.0, is_ray ? ray.transmission : 0.0});
-    }
+    for (int column = 0; column < kSide; ++column) landings.push_back(rays.from(window.at(column, row)));
   return landings;
+}
+
+// Where the border lies between a lit ray and one that is not.
+struct Crossing {
+  double part;  // of the way from the lit one
+  Vec2 sensor_mm;
+};
+
+// Linear in how far the rays are blocked; by halving where one of them does not reach the sensor.
+Crossing crossing_between(const Landing& lit, const Landing& dark, const GhostRays& rays) {
+  constexpr int kHalvings = 6;
+  if (dark.is_ray) {
+    const double part = lit.blocked / (lit.blocked - dark.blocked);
+    return {part, lit.sensor_mm + (dark.sensor_mm - lit.sensor_mm) * part};
+  }
+  Crossing last{0.0, lit.sensor_mm};
+  double step = 0.5;
+  for (int k = 0; k < kHalvings; ++k, step *= 0.5) {
+    const Landing next = rays.from(lit.entrance_mm + (dark.entrance_mm - lit.entrance_mm) * (last.part + step));
+    if (next.is_lit()) last = {last.part + step, next.sensor_mm};
+  }
+  return last;
 }
 
 // About the rays that get through, a cell wider.
@@ -67,6 +97,25 @@ std::optional<Window> lit_part(const Landings& landings, const Window& window) {
                 window.at(std::min(kSide - 1, right + 1), std::min(kSide - 1, bottom + 1))};
 }
 
+// Wider where rays on its border are lit, within the whole: a tip of the pupil may lie between two rays of a coarse
+// grid.
+Window widened(const Landings& landings, const Window& window, const Window& whole) {
+  constexpr double kByPart = 0.25;
+  const auto is_lit = [&](int column, int row) { return at(landings, column, row).is_lit(); };
+  bool left = false, right = false, top = false, bottom = false;
+  for (int k = 0; k < kSide; ++k) {
+    left = left || is_lit(0, k);
+    right = right || is_lit(kSide - 1, k);
+    top = top || is_lit(k, 0);
+    bottom = bottom || is_lit(k, kSide - 1);
+  }
+  const Vec2 by = (window.max - window.min) * kByPart;
+  return {{std::fmax(whole.min.x, window.min.x - (left ? by.x : 0)),
+           std::fmax(whole.min.y, window.min.y - (top ? by.y : 0))},
+          {std::fmin(whole.max.x, window.max.x + (right ? by.x : 0)),
+           std::fmin(whole.max.y, window.max.y + (bottom ? by.y : 0))}};
+}
+
 double area_of(const std::vector<Vec2>& polygon) {
   double twice = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -82,9 +131,23 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return sum * (1.0 / static_cast<double>(polygon.size()));
 }
 
+// Of a window that contains all of the pupil.
+Landings landings_within(const GhostRays& rays, Window window, const Window& whole) {
+  constexpr int kMostSteps = 4;
+  Landings landings = land(rays, window);
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Window wider = widened(landings, window, whole);
+    if (wider.min == window.min && wider.max == window.max) break;
+    window = wider;
+    landings = land(rays, window);
+  }
+  return landings;
+}
+
 // The lit part of a cell: its lit corners, and the points between a lit and a blocked one where the border is. The
 // cell's light is its area in the pupil, in cells, times its transmittance, until all are known.
-void add_cell(const std::array<const Landing*, 4>& corners, const Frame& frame, GhostFootprint& footprint) {
+void add_cell(const std::array<const Landing*, 4>& corners, const GhostRays& rays, const Frame& frame,
+              GhostFootprint& footprint) {
   constexpr std::array<Vec2, 4> kPupilCorners = {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}};
   std::vector<Vec2> polygon, in_pupil, crossings;
   double transmission = 0, lit = 0;
@@ -98,11 +161,11 @@ void add_cell(const std::array<const Landing*, 4>& corners, const Frame& frame, 
       ++lit;
     }
     if (here.is_lit() == next.is_lit()) continue;
-    const double part = here.blocked / (here.blocked - next.blocked);
-    const Vec2 crossing = frame.pixel_from_sensor(here.sensor_mm + (next.sensor_mm - here.sensor_mm) * part);
-    polygon.push_back(crossing);
+    const Crossing border = here.is_lit() ? crossing_between(here, next, rays) : crossing_between(next, here, rays);
+    const double part = here.is_lit() ? border.part : 1.0 - border.part;
+    crossings.push_back(frame.pixel_from_sensor(border.sensor_mm));
+    polygon.push_back(crossings.back());
     in_pupil.push_back(kPupilCorners[k] + (kPupilCorners[after] - kPupilCorners[k]) * part);
-    crossings.push_back(crossing);
   }
   if (polygon.size() >= 3) {
     footprint.cells_px.push_back(std::move(polygon));
@@ -151,20 +214,19 @@ double GhostFootprint::irradiance_at(Vec2 p, double radius_px) const {
 
 GhostFootprint footprint_of(const LensState& lens, const Ghost& ghost, const Light& light, const Frame& frame) {
   GhostFootprint footprint{ghost, {}, {}, {}};
-  const OpticalPath path = ghost_path(lens, ghost, lens.design_wavelength_nm);
-  const LightSource source = light.source();
-  const EntranceWindow entrance = entrance_window(lens, source);
+  const EntranceWindow entrance = entrance_window(lens, light.source());
+  const GhostRays rays{lens, ghost_path(lens, ghost, lens.design_wavelength_nm), light.source(), entrance.z_mm};
   const Window whole{entrance.min_mm, entrance.max_mm};
-  const auto lit = lit_part(land(path, lens, source, entrance.z_mm, whole), whole);
+  const auto lit = lit_part(land(rays, whole), whole);
   if (!lit) return footprint;
-  const Landings landings = land(path, lens, source, entrance.z_mm, *lit);
+  const Landings landings = landings_within(rays, *lit, whole);
   for (int row = 0; row + 1 < kSide; ++row)
     for (int column = 0; column + 1 < kSide; ++column) {
       const std::array<const Landing*, 4> corners = {&at(landings, column, row), &at(landings, column + 1, row),
                                                      &at(landings, column + 1, row + 1),
                                                      &at(landings, column, row + 1)};
-      if (std::ranges::all_of(corners, [](const Landing* corner) { return corner->is_ray; }))
-        add_cell(corners, frame, footprint);
+      if (std::ranges::any_of(corners, [](const Landing* corner) { return corner->is_lit(); }))
+        add_cell(corners, rays, frame, footprint);
     }
   double all = 0;
   for (const double light_of_cell : footprint.cell_light) all += light_of_cell;

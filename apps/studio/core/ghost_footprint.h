@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The footprint of a ghost in the picture by traced rays: a grid over the part of the entrance plane whose rays get
 // through, as polygons on the sensor. Cells that the border of the pupil crosses are cut there, by linear interpolation
-// of how far the rays at their corners are blocked. Accuracy: borders to a small part of a cell, which is a sixteenth
-// of the ghost's pupil; corners of the iris are cut off by as much. Thread-safety: plain values, pure functions.
+// of how far the rays at their corners are blocked, or by halving where a ray fails. Accuracy: borders to a small part
+// of a cell, which is a sixteenth of the ghost's pupil; corners of the iris are cut off by as much. Thread-safety:
+// plain values, pure functions.
 #pragma once
 
 #include <array>

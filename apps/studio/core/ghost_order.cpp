@@ -28,11 +28,14 @@ const char* name_of(GhostOrder order) {
   return "";
 }
 
+double part_in_frame(const GhostFigures& ghost, Vec2 frame_px) {
+  return part_inside(ghost.centroid_px.x, ghost.size_px.x, frame_px.x) *
+         part_inside(ghost.centroid_px.y, ghost.size_px.y, frame_px.y);
+}
+
 double visibility(const GhostFigures& ghost, Vec2 frame_px) {
   const Vec2 size{std::fmax(ghost.size_px.x, kSmallest_px), std::fmax(ghost.size_px.y, kSmallest_px)};
-  const double inside =
-      part_inside(ghost.centroid_px.x, size.x, frame_px.x) * part_inside(ghost.centroid_px.y, size.y, frame_px.y);
-  return ghost.relative_flux * inside / std::sqrt(size.x * size.y);
+  return ghost.relative_flux * part_in_frame(ghost, frame_px) / std::sqrt(size.x * size.y);
 }
 
 std::vector<std::size_t> ghosts_in_order(const std::vector<GhostFigures>& figures, GhostOrder order, Vec2 frame_px) {

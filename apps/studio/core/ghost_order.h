@@ -19,6 +19,9 @@ inline constexpr std::array<GhostOrder, 3> kGhostOrders = {GhostOrder::Visibilit
 // what one sees first.
 [[nodiscard]] double visibility(const GhostFigures& ghost, Vec2 frame_px);
 
+// The part of the box around a ghost that lies inside the frame, 0 to 1.
+[[nodiscard]] double part_in_frame(const GhostFigures& ghost, Vec2 frame_px);
+
 // Indices into the figures.
 [[nodiscard]] std::vector<std::size_t> ghosts_in_order(const std::vector<GhostFigures>& figures, GhostOrder order,
                                                        Vec2 frame_px);

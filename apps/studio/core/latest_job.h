@@ -45,6 +45,11 @@ class LatestJob {
       }
       if (job_.on_answer_) job_.on_answer_();
     }
+    // The request is answered, but the work goes on for the requests to come: nobody waits for it.
+    void goes_on_for_later() {
+      const std::lock_guard lock(job_.mutex_);
+      job_.working_ = false;
+    }
 
    private:
     LatestJob& job_;

@@ -26,6 +26,10 @@ constexpr double kMuchSooner = 0.4;  // a draft that takes so little of its time
 constexpr double kMostStillTime_ms = 100.0;
 constexpr int kSmallestDraft = 64;
 
+void replace(params::Values& values, std::string_view name, std::string text) {
+  static_cast<void>(values.set(name, std::move(text)));  // within the parameter's range
+}
+
 // Renders on the job's thread, and keeps what frames have in common.
 class PictureWorker {
  public:
@@ -42,7 +46,10 @@ class PictureWorker {
     const bool shifts_stars = StarLayers::are_wanted(values) && stars_.have(order.stars);
     if (shifts_stars) leave_out_stars(values);
     const Context context{.cancel = &control.is_ending()};
-    const std::string key = key_without_lights(values);
+    // Lights that stand still keep their ghosts when the brightest of the others change.
+    params::Values kept = values;
+    replace(kept, "select", *order.values.text("select"));
+    const std::string key = key_without_lights(kept);
     const auto draw_anew = [&](const PictureRequest& request) { return render_picture(request, *renderer_, context); };
     const auto draw = [&](const PictureRequest& request) {
       auto flare = still_lights_.draw(request, key, draw_anew);
@@ -154,10 +161,6 @@ class PictureWorker {
   std::size_t level_ = 1;
   int early_ = 0;
 };
-
-void replace(params::Values& values, std::string_view name, std::string text) {
-  static_cast<void>(values.set(name, std::move(text)));  // within the parameter's range
-}
 
 std::string smaller_size(const std::string& text, int divisor) {
   const auto size = params::parse_size(text);

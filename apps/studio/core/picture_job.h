@@ -29,7 +29,7 @@ struct PictureOrder {
   std::shared_ptr<const LensState> lens;
   std::vector<StarLight> stars = {};  // of all lights, in their order; empty: drafts render starbursts themselves
   std::shared_ptr<const Plate> plate = nullptr;  // the flare is added to it; null: to black
-  std::vector<Ghost> brightest = {};  // of a similar light, brightest first: drafts that are late draw these only
+  std::vector<Ghost> brightest = {};  // brightest first: drafts that are late draw the first of these only
 };
 
 enum class PictureKind { Draft, Refined };

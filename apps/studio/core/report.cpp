@@ -98,7 +98,7 @@ std::string prescription_html(const ExportOrder& order) {
     const bool reflects =
         k < order.lens->surfaces.size() && !(order.lens->surfaces[k].before == order.lens->surfaces[k].after);
     cells.push_back(reflects ? fmt::format("{} {:.2f} %", colour_html(reflected_rgb(order.lens->surfaces[k])),
-                                           100 * mean_reflectance(order.lens->surfaces[k]))
+                                           100 * luminous_reflectance(order.lens->surfaces[k]))
                              : "");
     html += row(cells);
   }

@@ -87,6 +87,7 @@ bool Studio::push(Result<Document> document, const std::string& name, const std:
   if (!lens) return refuse(lens.error(), merge_key);
   problem_.clear();
   problem_key_.clear();
+  message_ = name;
   history_.push(name, merge_key, std::move(*document));
   lens_ = std::make_shared<const LensState>(std::move(*lens));
   document_changed();
@@ -101,8 +102,28 @@ Vec2 Studio::frame_px() const {
 void Studio::undo() { go_to_step(history_.can_undo() ? history_.position() - 1 : history_.position()); }
 void Studio::redo() { go_to_step(history_.position() + 1); }
 
+bool Studio::add_light(Vec2 at) {
+  const auto lights = lights_of(document());
+  LightEntry light = lights.empty() ? LightEntry{} : lights[std::min(selection.light, lights.size() - 1)];
+  light.at = at;
+  if (!edit("add light", "", [&](const Document& d) { return with_new_light(d, light); })) return false;
+  select_light(lights.size());
+  say(fmt::format("light {} added; Ctrl+Z takes it away", lights.size() + 1));
+  return true;
+}
+
 void Studio::go_to_step(std::size_t step) {
+  const std::size_t before = history_.position();
   history_.go_to(step);
+  const std::size_t now = history_.position();
+  problem_.clear();
+  problem_key_.clear();
+  if (now + 1 == before)
+    say("undone: " + history_.steps()[before].name);
+  else if (now == before + 1)
+    say("redone: " + history_.steps()[now].name);
+  else if (now != before)
+    say("back to: " + history_.steps()[now].name);
   if (document().animation != Animation{}) history_.replace_now(at_frame(document(), view.frame));
   auto lens = params::lens_of(*document().lens, document().values());  // it was configured before
   if (lens) lens_ = std::make_shared<const LensState>(std::move(*lens));
@@ -131,11 +152,21 @@ void Studio::post_picture() {
   frame_of_picture_ = view.frame;
   auto plate = this->plate();
   if (!plate && plates_.is_reading(document().plate, view.frame)) return;
-  std::vector<Ghost> brightest;
-  for (const GhostFigures& f : figures_)
-    if (has_ghost(*lens_, f.ghost)) brightest.push_back(f.ghost);
   picture_job_.post(
-      {revision_, document().values(), lens_, stars_of(document()), std::move(plate), std::move(brightest)});
+      {revision_, document().values(), lens_, stars_of(document()), std::move(plate), brightest_ghosts()});
+}
+
+std::vector<Ghost> Studio::brightest_ghosts() const {
+  std::vector<double> radii;
+  for (const LightEntry& light : lights_of(document())) radii.push_back(radius_of(light.at, frame_px()));
+  std::vector<Ghost> brightest;
+  if (ranks_ && !radii.empty() && !document().texts.contains("light")) {
+    brightest = brightest_at(*ranks_, radii);
+  } else {
+    for (const GhostFigures& f : figures_) brightest.push_back(f.ghost);
+  }
+  std::erase_if(brightest, [&](const Ghost& ghost) { return !has_ghost(*lens_, ghost); });
+  return brightest;
 }
 
 void Studio::refresh_section() {
@@ -211,6 +242,7 @@ void Studio::update() {
   if (auto figures = figures_job_.take(); figures && figures->error.empty()) {
     figures_ = std::move(figures->figures);
     footprints_ = std::move(figures->footprints);
+    ranks_ = std::move(figures->ranks);
     figures_revision_ = figures->revision;
     ++changes_;
   }

@@ -61,6 +61,8 @@ class Studio {
   using Edit = std::function<Result<Document>(const Document&)>;
   bool edit(const std::string& name, const std::string& merge_key, const Edit& edit);
   void end_gesture() { history_.seal(); }
+  // One like the selected light, which is then selected. at: u, v.
+  bool add_light(Vec2 at);
   void undo();
   void redo();
   void go_to_step(std::size_t step);
@@ -109,6 +111,7 @@ class Studio {
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   [[nodiscard]] const std::string& problem() const { return problem_; }
   [[nodiscard]] const std::string& problem_key() const { return problem_key_; }  // merge key of the refused command
+  // What was done last: the last step of the history, or what its work has answered since.
   [[nodiscard]] const std::string& message() const { return message_; }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] bool is_saved() const { return history_.is_saved(); }
@@ -121,6 +124,10 @@ class Studio {
   [[nodiscard]] const std::vector<GhostFigures>& figures() const { return figures_; }
   [[nodiscard]] const std::vector<GhostFootprint>& footprints() const { return footprints_; }  // one a figure
   [[nodiscard]] bool figures_are_current() const { return figures_revision_ == revision_; }
+  // The ghosts of which late drafts draw the first: the brightest where the lights are now; until the ranks are there,
+  // the brightest where the selected light was at rest.
+  [[nodiscard]] std::vector<Ghost> brightest_ghosts() const;
+  [[nodiscard]] bool has_ranks() const { return ranks_ != nullptr; }
   [[nodiscard]] const SectionAnswer& section() const { return section_; }
   [[nodiscard]] std::shared_ptr<const Plate> plate() { return plates_.find(document().plate, view.frame); }
   // The frames of a plate that is a sequence whose files exist.
@@ -185,6 +192,7 @@ class Studio {
   PictureAnswer picture_;
   std::vector<GhostFigures> figures_;
   std::vector<GhostFootprint> footprints_;
+  std::shared_ptr<const GhostRanks> ranks_;
   SectionAnswer section_;
   std::vector<Snapshot> snapshots_;
   std::size_t snapshots_taken_ = 0;

@@ -17,7 +17,9 @@ namespace contrejour::studio {
 
 bool Studio::open_lens(const std::string& name_or_file) {
   const bool had_coating = document().texts.contains("coating") || document().texts.contains("coating-at");
-  if (!adopt(document_with_lens(document(), name_or_file), fmt::format("open lens {}", name_or_file), "")) return false;
+  auto opened = document_with_lens(document(), name_or_file);
+  const std::string name = opened && !opened->lens->name.empty() ? opened->lens->name : name_or_file;
+  if (!adopt(std::move(opened), fmt::format("open lens {}", name), "")) return false;
   say(fmt::format("{} at f/{:.3g}{}", document().lens->name, lens_->f_number,
                   had_coating ? ", with its own coatings in place of those that were set" : ""));
   return true;
@@ -47,6 +49,8 @@ bool Studio::recover(const LostWork& work) {
     return Result<Document>(std::move(d));
   });
   static_cast<void>(autosave_.save(document(), file_, true));
+  say(fmt::format("recovered the unsaved work {}",
+                  work.of_file.empty() ? "that had no file yet" : "of " + work.of_file));
   return true;
 }
 

@@ -17,6 +17,7 @@ std::string json_of_view(const View& view) {
                         {"pan", {view.pan.x, view.pan.y}},
                         {"transform", static_cast<int>(view.transform)},
                         {"colour-view", {view.colour.display, view.colour.view}},
+                        {"interface-scale", view.interface_scale},
                         {"handles", view.shows_handles},
                         {"ghosts", view.shows_ghosts},
                         {"frame", view.frame},
@@ -54,6 +55,8 @@ View view_of_json(const std::string& text) {
   view.pan = pair("pan", {});
   view.transform = static_cast<ViewTransform>(std::clamp(static_cast<int>(number("transform", 0)), 0, 3));
   view.colour = colour_view();
+  const double scale = number("interface-scale", 0);
+  view.interface_scale = scale > 0 ? std::clamp(scale, 0.75, 3.0) : 0;
   view.shows_handles = flag("handles");
   view.shows_ghosts = flag("ghosts");
   const Vec2 frames = pair("frames", {1, 48});

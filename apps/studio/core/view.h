@@ -17,6 +17,7 @@ struct View {
   Vec2 pan;  // of its middle, in parts of the fitting picture's size
   ViewTransform transform = ViewTransform::Preview;
   ColourViewName colour;  // of ViewTransform::Colour
+  double interface_scale = 0;  // 0: that of the program's start
   bool shows_handles = true;
   bool shows_ghosts = true;  // outline of the selected ghost
   int frame = 1, first_frame = 1, last_frame = 48;  // of the timeline

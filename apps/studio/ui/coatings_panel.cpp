@@ -45,10 +45,10 @@ void draw_list_row(Ui& ui, int number, const SurfaceState& surface) {
   ImGui::PopID();
   const std::string shown = fitted(name, ImGui::GetContentRegionMax().x - scaled(kNameAt + 4));
   ui.registry.record(id, shown);
-  const std::string share = fmt::format("{:.2f} %", 100 * mean_reflectance(surface));
-  tip(fmt::format("{}\nIt reflects {} of the light at normal incidence, the mean of {:.0f} to {:.0f} nm. The patch is "
+  const std::string share = fmt::format("{:.2f} %", 100 * luminous_reflectance(surface));
+  tip(fmt::format("{}\nIt reflects {} of daylight at normal incidence, as the eye weighs the wavelengths. The patch is "
                   "the colour of its reflection of white light.",
-                  name, share, kFirstCurve_nm, kLastCurve_nm)
+                  name, share)
           .c_str());
   bring_into_sight(ui, number, ui.state.coating_in_sight);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -64,13 +64,18 @@ void draw_list(Ui& ui) {
   ImGui::TextDisabled("Surface");
   ImGui::SameLine(scaled(54));
   ImGui::TextDisabled("reflects");
-  tip("Of the light at normal incidence, the mean over the wavelengths of the plot");
+  tip("Of daylight at normal incidence, each wavelength weighted by the eye's sensitivity");
   ImGui::SameLine(scaled(kNameAt));
   ImGui::TextDisabled("with the coating");
   ImGui::BeginChild("##rows");
+  const int in_sight_before = ui.state.coating_in_sight;
   const auto& surfaces = ui.studio.lens().surfaces;
   for (std::size_t k = 0; k < surfaces.size(); ++k)
     if (reflects(surfaces[k])) draw_list_row(ui, static_cast<int>(k) + 1, surfaces[k]);
+  // The headings above would cut a row in half.
+  const float row = ImGui::GetTextLineHeightWithSpacing(), at = ImGui::GetScrollY();
+  const bool scrolls_to_row = ui.state.coating_in_sight != in_sight_before;
+  if (at < ImGui::GetScrollMaxY() && !scrolls_to_row) ImGui::SetScrollY(row * std::round(at / row));
   ImGui::EndChild();
 }
 
@@ -158,6 +163,11 @@ std::string design_of(const std::string& coating) { return coating.substr(0, coa
 void draw_design_choice(Ui& ui, int number, const std::string& current, float width) {
   ImGui::SetNextItemWidth(width);
   if (ImGui::BeginCombo("##design", fitted(current, width - 2.2F * ImGui::GetFrameHeight()).c_str())) {
+    if (const std::string own = own_coating(ui.studio.document(), number); is_only_a_name(own)) {
+      if (ImGui::Selectable(fmt::format("{} (the lens's own)", own).c_str(), current == own))
+        set_coating(ui, number, own, "");
+      ui.registry.record("coatings/design/own", own);
+    }
     for (const char* design : kDesigns) {
       if (ImGui::Selectable(design, current == design)) set_coating(ui, number, design, "");
       ui.registry.record(fmt::format("coatings/design/{}", design));
@@ -185,17 +195,19 @@ void draw_coating_controls(Ui& ui, const SurfaceState& surface) {
   if (text_field(ui, "coatings/text", typed, is_narrow ? half : std::min(scaled(190), 0.34F * room), "v-coat:550") &&
       !typed.empty())
     if (!set_coating(ui, number, typed, "")) refuse_text(ui, "coatings/text", typed, ui.studio.problem());
+  tip("The coating as the command line takes it: v-coat:550, quarter-wave:550:1.38, stack:1.38@99.6,ZrO2@0.5w, "
+      "measured:FILE");
   if (!wavelength) return;
   ImGui::SameLine();
   auto lambda = static_cast<float>(*wavelength);
   ImGui::SetNextItemWidth(is_narrow ? half : std::min(scaled(170), 0.3F * room));
-  if (ImGui::SliderFloat("##lambda", &lambda, 380, 760, "%.0f nm"))
+  if (drag_bar("##lambda", lambda, 380, 760, "%.0f nm"))
     set_coating(ui, number,
                 with_design_wavelength(coating_of_surface(ui.studio.document(), number), static_cast<double>(lambda)),
                 "coatings/lambda");
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
   ui.registry.record("coatings/lambda", fmt::format("{:.1f}", lambda));
-  tip("The wavelength that the coating is made for");
+  tip("The wavelength that the coating is made for. Drag, or click to type.");
 }
 
 void select_first_glass(Ui& ui) {

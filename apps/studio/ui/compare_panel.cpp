@@ -35,8 +35,8 @@ void draw_amount(Ui& ui) {
   auto value = static_cast<float>(wipes ? 100 * compare.edge : compare.gain_stops);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(scaled(150));
-  if (ImGui::SliderFloat("##amount", &value, wipes ? 0.0F : -4.0F, wipes ? 100.0F : 16.0F,
-                         wipes ? "Edge %.0f %%" : "Gain %+.1f EV"))
+  if (drag_bar("##amount", value, wipes ? 0.0F : -4.0F, wipes ? 100.0F : 16.0F,
+               wipes ? "Edge %.0f %%" : "Gain %+.1f EV"))
     (wipes ? compare.edge : compare.gain_stops) = static_cast<double>(value) * (wipes ? 0.01 : 1.0);
   ui.registry.record("compare/amount", fmt::format("{}", value));
   tip(wipes ? "The edge can be dragged in the picture, too" : "Gain of the difference");

@@ -48,7 +48,9 @@ std::string session_name(const std::string& path) { return is_session(path) ? pa
 
 bool save_file(Ui& ui) {
   ui.state.path = session_name(ui.state.path);
-  return ui.studio.save_session(ui.state.path);
+  if (!ui.studio.save_session(ui.state.path)) return false;
+  ui.state.wants_to_quit = ui.state.quits_when_saved;
+  return true;
 }
 
 // The session's own file is replaced without asking.
@@ -86,6 +88,7 @@ void draw_quit(Ui& ui) {
   if (button(ui, "quit/save", "Save", nullptr, {scaled(110), 0})) {
     ImGui::CloseCurrentPopup();
     open_dialog(ui, Dialog::SaveAs, ui.studio.file());
+    ui.state.quits_when_saved = true;
   }
   ImGui::SameLine();
   if (button(ui, "quit/discard", "Discard", nullptr, {scaled(110), 0})) {

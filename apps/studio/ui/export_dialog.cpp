@@ -19,7 +19,7 @@ constexpr float kDialogWidth = 560;
 void choose_kind(Ui& ui, ExportKind kind) {
   ui.state.export_kind = kind;
   const auto folder = std::filesystem::path(ui.state.path).parent_path();
-  ui.state.path = (folder / usual_file(kind)).string();
+  ui.state.path = (folder / file_to_export(ui)).string();
 }
 
 void draw_kinds(Ui& ui) {
@@ -49,6 +49,7 @@ void draw_command(Ui& ui, const char* what, const std::string& id, const std::st
   ImGui::SetNextItemWidth(scaled(kDialogWidth - 76));
   ImGui::InputText(("##" + id).c_str(), shown.data(), shown.size() + 1, ImGuiInputTextFlags_ReadOnly);
   ui.registry.record("export/" + id, command);
+  tip(command.c_str());
   ImGui::SameLine();
   if (button(ui, "export/" + id + "/copy", "Copy", nullptr, {scaled(68), 0})) ImGui::SetClipboardText(command.c_str());
 }

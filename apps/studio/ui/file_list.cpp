@@ -60,10 +60,12 @@ bool draw_path_field(Ui& ui) {
 void draw_folder(Ui& ui) {
   const auto folder = folder_of(typed_path(ui.state.path));
   ImGui::TextDisabled("%s", fitted(folder.string(), scaled(kFileWidth)).c_str());
-  const float room = ImGui::GetIO().DisplaySize.y - scaled(356);  // what is above and below it in the largest dialog
+  const float room = ImGui::GetIO().DisplaySize.y - scaled(384);  // what is above and below it in the largest dialog
   ImGui::BeginChild("##folder", {scaled(kFileWidth), std::clamp(room, scaled(80), scaled(260))}, true,
                     ImGuiWindowFlags_AlwaysUseWindowPadding);
-  const FolderListing listing = listing_of(folder, kind_of(ui));
+  const bool exports = ui.state.dialog == Dialog::Export && !ui.state.shows_all_files;
+  const FolderListing listing =
+      exports ? listing_of(folder, endings_of(ui.state.export_kind)) : listing_of(folder, kind_of(ui));
   if (ImGui::Selectable("..")) go_to(ui, folder.parent_path().string());
   for (const FolderEntry& entry : listing.entries) {
     const std::string label = entry.name + (entry.is_folder ? "/" : "");
@@ -73,7 +75,6 @@ void draw_folder(Ui& ui) {
     if (chosen && !entry.is_folder) ui.state.path = (folder / entry.name).string();
   }
   ImGui::EndChild();
-  if (ui.state.dialog == Dialog::Export) return;
   const std::string all = listing.others > 0 ? fmt::format("Show all files ({} more)###all", listing.others)
                                              : std::string("Show all files###all");
   ImGui::Checkbox(all.c_str(), &ui.state.shows_all_files);
@@ -86,12 +87,20 @@ bool lists_folder_typed(Ui& ui) {
   if (ui.state.dialog == Dialog::OpenSweep || !std::filesystem::is_directory(ui.state.path, code)) return false;
   go_to(ui, ui.state.path);
   if (ui.state.dialog == Dialog::SaveAs) ui.state.path += usual_session(ui.studio.document().lens_name);
-  if (ui.state.dialog == Dialog::Export) ui.state.path += usual_file(ui.state.export_kind);
+  if (ui.state.dialog == Dialog::Export) ui.state.path += file_to_export(ui);
   return true;
+}
+
+std::string file_to_export(const Ui& ui) {
+  const std::string& before = ui.state.exported[static_cast<std::size_t>(ui.state.export_kind)];
+  return before.empty() ? usual_file(ui.state.export_kind) : before;
 }
 
 void remember_folder(Ui& ui, Dialog dialog) {
   const std::string folder = std::filesystem::path(ui.state.path).parent_path().string();
+  if (dialog == Dialog::Export)
+    ui.state.exported[static_cast<std::size_t>(ui.state.export_kind)] =
+        std::filesystem::path(ui.state.path).filename().string();
   if (!folder.empty()) ui.state.folders[static_cast<std::size_t>(dialog)] = folder + (folder == "/" ? "" : "/");
 }
 
@@ -99,6 +108,7 @@ void open_dialog(Ui& ui, Dialog dialog, std::string path) {
   ui.state.dialog = dialog;
   ui.state.dialog_opens = true;
   ui.state.dialog_has_failed = false;
+  ui.state.quits_when_saved = false;
   if (dialog == Dialog::SaveAs && path.empty()) path = usual_session(ui.studio.document().lens_name);
   const bool has_folder = std::filesystem::path(path).has_parent_path();
   ui.state.path = (has_folder ? "" : ui.state.folders[static_cast<std::size_t>(dialog)]) + path;

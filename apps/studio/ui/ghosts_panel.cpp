@@ -12,43 +12,41 @@
 #include "contrejour/expert/parameter_text.h"
 #include "studio/core/ghost_edits.h"
 #include "studio/core/ghost_order.h"
+#include "studio/core/ghost_summary.h"
 #include "studio/ui/panels.h"
 #include "studio/ui/theme.h"
 
 namespace contrejour::studio {
 namespace {
 
-constexpr std::size_t kThatMatter = 10;
+// A row to show: its place in the order asked for, whether the filter hides others or not, and its figures.
+struct GhostRow {
+  std::size_t rank, figures;
+};
 
-// The rows to show: those that the filter names ("3-8", or "8" for all that reflect there), in the order asked for.
-std::vector<std::size_t> rows_of(const Ui& ui) {
+// Those that the filter names ("3-8", or "8" for all that reflect there), in the order asked for.
+std::vector<GhostRow> rows_of(const Ui& ui) {
   const auto& figures = ui.studio.figures();
-  std::vector<std::size_t> rows;
+  std::vector<GhostRow> rows;
   const std::string& filter = ui.state.ghost_filter;
+  const bool by_surface =
+      !filter.empty() && std::all_of(filter.begin(), filter.end(), [](char c) { return c >= '0' && c <= '9'; });
+  std::size_t rank = 0;
   for (const std::size_t k : ghosts_in_order(figures, ui.state.ghost_order, ui.studio.frame_px())) {
-    const std::string name = ghost_name(figures[k].ghost);
-    const bool by_surface = !filter.empty() && filter.find('-') == std::string::npos &&
-                            std::all_of(filter.begin(), filter.end(), [](char c) { return c >= '0' && c <= '9'; });
-    const bool fits = by_surface ? figures[k].ghost.reflects_at(std::atoi(filter.c_str())) : name.starts_with(filter);
-    if (fits) rows.push_back(k);
+    ++rank;
+    const Ghost& ghost = figures[k].ghost;
+    if (by_surface ? ghost.reflects_at(std::atoi(filter.c_str())) : ghost_name(ghost).starts_with(filter))
+      rows.push_back({rank, k});
   }
   return rows;
 }
 
-void draw_summary(const Ui& ui) {
-  const auto& figures = ui.studio.figures();
-  const auto sum = [&](std::size_t count) {
-    double flux = 0;
-    for (std::size_t k = 0; k < std::min(count, figures.size()); ++k) flux += figures[k].relative_flux;
-    return flux;
-  };
-  const double all = sum(figures.size());
-  const std::string text = figures.empty()
-                               ? "measuring\u2026"
-                               : fmt::format("{} ghosts, {:.2f} % of the light; ten carry {:.0f} % of it",
-                                             figures.size(), 100 * all, all > 0 ? 100 * sum(kThatMatter) / all : 0.0);
+void draw_summary(Ui& ui, std::size_t listed) {
+  const std::string text =
+      summary_of_ghosts(ui.studio.document(), ui.studio.figures(), ui.studio.selection.light, listed);
   fitting_text(text, ImGui::GetContentRegionAvail().x,
                ui.studio.figures_are_current() ? colours::dim() : colours::kAccentDim);
+  ui.registry.record("ghosts/summary", text);
 }
 
 void draw_ghost_controls(Ui& ui) {
@@ -130,7 +128,7 @@ void draw_ghost_figures(const Ui& ui, const GhostFigures& figures, double larges
   const std::string all = fmt::format(
       "{:.3g} % of the light; its brightest pixel has {:.3g} of the irradiance at the lens; {:.0f} x {:.0f} px{}",
       100 * figures.relative_flux, figures.peak_irradiance, figures.size_px.x, figures.size_px.y,
-      figures.in_focus ? "; sharp on the axis" : "");
+      figures.in_focus ? "; sharp: in focus for a light on the axis" : "");
   for (const std::string& text : {flux_text(figures), peak_text(figures, largest), size_text(ui, figures)}) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
@@ -147,16 +145,22 @@ void draw_absence() {
   }
 }
 
-void draw_ghost_row(Ui& ui, std::size_t rank, const GhostFigures& figures, double largest) {
+void draw_ghost_row(Ui& ui, const GhostRow& row, double largest) {
+  const auto& [rank, index] = row;
+  const GhostFigures& figures = ui.studio.figures()[index];
   const std::string id = "ghosts/" + ghost_name(figures.ghost);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const bool selected = ui.studio.selection.ghost == figures.ghost, is_there = figures.relative_flux > 0;
   ImGui::PushID(id.c_str());
-  if (ImGui::Selectable(fmt::format("{}", rank + 1).c_str(), selected,
+  if (ImGui::Selectable(fmt::format("{}", rank).c_str(), selected,
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
     ui.studio.select_ghost(selected ? std::nullopt : std::optional<Ghost>(figures.ghost));
   ImGui::PopID();
+  if (selected && ui.state.ghost_in_sight != figures.ghost) {
+    if (!is_wholly_in_sight()) ImGui::SetScrollHereY(0.5F);
+    ui.state.ghost_in_sight = figures.ghost;
+  }
   ui.registry.record(id, selected ? "selected" : "");
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(ghost_name(figures.ghost).c_str());
@@ -174,20 +178,34 @@ void draw_ghost_row(Ui& ui, std::size_t rank, const GhostFigures& figures, doubl
 }
 
 // Columns are as wide as their texts; where the panel is narrower, it scrolls.
-void set_up_ghost_columns(const Ui& ui) {
+// Of a ghost that was selected elsewhere since the last frame; -1: none.
+int row_to_bring_into_sight(Ui& ui, const std::vector<GhostRow>& rows) {
+  const auto ghost = ui.studio.selection.ghost;
+  if (!ghost) ui.state.ghost_in_sight.reset();
+  if (!ghost || ui.state.ghost_in_sight == ghost) return -1;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (ui.studio.figures()[rows[k].figures].ghost == *ghost) return static_cast<int>(k);
+  return -1;
+}
+
+constexpr int kPeakColumn = 4;  // left out first where there is no room for all
+
+// room: in the panel, a scroll bar included, so that columns stay where they are when the list becomes short.
+void set_up_ghost_columns(const Ui& ui, float room) {
   const float most = static_cast<float>(ui.studio.figures().size());
   const std::array<std::pair<const char*, float>, 8> columns = {
       {{"#", text_width(most > 99 ? "000" : "00")},
        {"Ghost", std::max(text_width("Ghost"), text_width("00-00"))},
        {"", scaled(14)},
        {"Flux %", text_width("<0.0001")},
-       {"Peak", std::max(text_width("Peak"), text_width("-00.0"))},
+       {"Peak EV", std::max(text_width("Peak EV"), text_width("-00.0"))},
        {"Size px", std::max(text_width(">10 frames"), text_width("000 sharp"))},
        {"", scaled(44)},
        {"Gain", scaled(42)}}};
   float all = ImGui::GetStyle().ScrollbarSize;
   for (const auto& column : columns) all += column.second + 2 * ImGui::GetStyle().CellPadding.x;
-  const float left = std::floor(std::max(0.0F, ImGui::GetContentRegionAvail().x - all) / 4);
+  const float left = std::floor(std::max(0.0F, room - all) / 4);
+  ImGui::TableSetColumnEnabled(kPeakColumn, all <= room);
   ImGui::TableSetupScrollFreeze(2, 1);
   for (std::size_t k = 0; k < columns.size(); ++k)
     ImGui::TableSetupColumn(columns[k].first, ImGuiTableColumnFlags_WidthFixed,
@@ -196,21 +214,24 @@ void set_up_ghost_columns(const Ui& ui) {
       {"Rank in the order chosen above",
        "The surfaces where the light reflects, counted from the front: 3-8 reflects at 8, then at 3",
        "The ghost's colour", "Part of the light that reaches the sensor directly, in per cent",
-       "Stops of the brightest pixel below that of the ghost with the brightest",
-       "The longer side, in pixels, or in widths of the frame. Sharp: in focus on the axis, a small bright spot.",
+       "Its brightest pixel, in stops (EV) below that of the ghost with the brightest one of all",
+       "The longer side in pixels, or in frames: widths of the frame. Sharp: in focus for a light on the axis, a small "
+       "bright spot.",
        "S: solo, M: mute", "1 is physically right"});
 }
 
-void draw_ghost_table(Ui& ui, ImGuiTableFlags flags) {
+void draw_ghost_table(Ui& ui, const std::vector<GhostRow>& rows, ImGuiTableFlags flags) {
+  const float room = ImGui::GetContentRegionAvail().x;
   if (!ImGui::BeginTable("ghosts", 8, flags)) return;
-  set_up_ghost_columns(ui);
-  const auto rows = rows_of(ui);
+  set_up_ghost_columns(ui, room);
   const double largest = largest_peak(ui);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()));
+  if (const int selected = row_to_bring_into_sight(ui, rows); selected >= 0)
+    clipper.ForceDisplayRangeByIndices(selected, selected + 1);
   while (clipper.Step())
     for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k)
-      draw_ghost_row(ui, static_cast<std::size_t>(k), ui.studio.figures()[rows[static_cast<std::size_t>(k)]], largest);
+      draw_ghost_row(ui, rows[static_cast<std::size_t>(k)], largest);
   ImGui::EndTable();
 }
 
@@ -218,12 +239,14 @@ void draw_ghost_table(Ui& ui, ImGuiTableFlags flags) {
 
 void draw_ghosts_panel(Ui& ui) {
   draw_ghost_controls(ui);
-  draw_summary(ui);
+  const auto rows = rows_of(ui);
+  draw_summary(ui, rows.size());
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit;
+                                    ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit |
+                                    ImGuiTableFlags_Hideable;
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(scaled(4), style.CellPadding.y));
-  draw_ghost_table(ui, flags);
+  draw_ghost_table(ui, rows, flags);
   ImGui::PopStyleVar();
 }
 

@@ -48,7 +48,7 @@ void draw_help_overlay(Ui& ui) {
   ImGui::EndTable();
   ImGui::PopStyleVar();
   ImGui::TextDisabled(
-      "Wheel: zoom.  Right button: pan.  Click: the ghost there.  Click a number to type it (a slider: Ctrl+click).  "
+      "Wheel: zoom.  Right button: pan.  Click: the ghost there.  A number: drag it, or click it and type.  "
       "Esc closes this.");
   ui.registry.record("help");
   ImGui::End();

@@ -10,7 +10,8 @@ namespace contrejour::studio {
 void draw_history_panel(Ui& ui) {
   const History& history = ui.studio.history();
   const std::size_t count = history.steps().size() - 1;
-  ImGui::TextDisabled("%zu %s. Ctrl+Z undoes, Ctrl+Shift+Z redoes.", count, count == 1 ? "step" : "steps");
+  ImGui::TextDisabled("%zu %s since it was opened. Ctrl+Z undoes, Ctrl+Shift+Z redoes.", count,
+                      count == 1 ? "step" : "steps");
   ImGui::BeginChild("##history");
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(history.steps().size()));

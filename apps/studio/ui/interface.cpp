@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <imgui_internal.h>
 
@@ -68,7 +69,8 @@ void draw_splitter(const char* id, ImVec2 at, ImVec2 extent, bool is_upright, fl
 
 }  // namespace
 
-Interface::Interface(Studio& studio) : studio_(studio) {
+Interface::Interface(Studio& studio, double scale) : studio_(studio) {
+  state_.started_scale = scale;
   state_.lost = studio.lost_work();
   if (state_.lost.empty()) return;
   state_.dialog = Dialog::Recover;
@@ -176,6 +178,7 @@ void Interface::draw_frame() {
   ImGui::Begin("##studio", nullptr, flags);
   ImGui::PopStyleVar();
   use_keys(ui);
+  if (std::exchange(state_.asks_to_quit, false)) ask_to_quit();
   draw_panels();
   ImGui::End();
   draw_dialogs(ui);
@@ -202,7 +205,7 @@ void Interface::open_file(const std::string& file) {
 }
 
 void Interface::ask_to_quit() {
-  if (studio_.is_saved() || studio_.history().position() == 0) {
+  if (studio_.is_saved()) {
     studio_.forget_autosave();
     state_.wants_to_quit = true;
     return;

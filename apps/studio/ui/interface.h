@@ -13,13 +13,14 @@ namespace contrejour::studio {
 
 class Interface {
  public:
-  explicit Interface(Studio& studio);
+  Interface(Studio& studio, double scale);
 
   void draw_frame();
   // Something of the last frame asks for another one at once.
   [[nodiscard]] bool needs_frame() const;
   void open_file(const std::string& file);  // a lens, a session or a plate
   void ask_to_quit();
+  [[nodiscard]] double scale() const { return scale_of(studio_.view, state_); }
   [[nodiscard]] bool wants_to_quit() const { return state_.wants_to_quit; }
 
   // Everything that a test or an assistive program may ask, as JSON.

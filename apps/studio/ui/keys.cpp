@@ -63,18 +63,23 @@ void change_exposure(Ui& ui, double by) {
   ui.studio.refresh_display();
 }
 
-void add_light(Ui& ui) {
-  const auto lights = lights_of(ui.studio.document());
-  LightEntry light = lights.empty() ? LightEntry{} : lights[std::min(ui.studio.selection.light, lights.size() - 1)];
-  light.at = {0.5, 0.4};
-  if (ui.studio.edit("add light", "", [&](const Document& d) { return with_new_light(d, light); }))
-    ui.studio.select_light(lights.size());
-}
-
 void remove_light(Ui& ui) {
   const std::size_t k = ui.studio.selection.light;
   if (k < lights_of(ui.studio.document()).size())
     ui.studio.edit(fmt::format("remove light {}", k + 1), "", [&](const Document& d) { return without_light(d, k); });
+}
+
+constexpr std::array kScales = {0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0};
+
+void change_scale(Ui& ui, int by) {
+  const double now = scale_of(ui.studio.view, ui.state);
+  if (by > 0) {
+    const auto* larger = std::ranges::upper_bound(kScales, now + 0.01);
+    if (larger != kScales.end()) ui.studio.view.interface_scale = *larger;
+  } else {
+    const auto* smaller = std::ranges::lower_bound(kScales, now - 0.01);
+    if (smaller != kScales.begin()) ui.studio.view.interface_scale = *std::prev(smaller);
+  }
 }
 
 void set_compare_mode(Ui& ui, CompareMode mode) {
@@ -115,7 +120,8 @@ constexpr std::array kKeys = {
     KeyCommand{"ctrl+shift+s", "Ctrl+Shift+S", "Files", "save under another name",
                [](Ui& ui) { open_dialog(ui, Dialog::SaveAs, ui.studio.file()); }},
     KeyCommand{"ctrl+e", "Ctrl+E", "Files", "export the picture",
-               [](Ui& ui) { open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind)); }},
+               [](Ui& ui) { open_dialog(ui, Dialog::Export, file_to_export(ui)); }},
+    KeyCommand{"ctrl+q", "Ctrl+Q", "Files", "quit", [](Ui& ui) { ui.state.asks_to_quit = true; }},
     KeyCommand{"ctrl+z", "Ctrl+Z", "History", "undo", [](Ui& ui) { ui.studio.undo(); }},
     KeyCommand{"ctrl+shift+z", "Ctrl+Shift+Z", "History", "redo", [](Ui& ui) { ui.studio.redo(); }},
     KeyCommand{"ctrl+y", "Ctrl+Y", "History", "redo", [](Ui& ui) { ui.studio.redo(); }},
@@ -127,7 +133,8 @@ constexpr std::array kKeys = {
     KeyCommand{"shift+right", "", "Lights", "", [](Ui& ui) { nudge(ui, 10, 0); }},
     KeyCommand{"shift+up", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, -10); }},
     KeyCommand{"shift+down", "", "Lights", "", [](Ui& ui) { nudge(ui, 0, 10); }},
-    KeyCommand{"l", "L", "Lights", "add a light (or double-click)", add_light},
+    KeyCommand{"l", "L", "Lights", "add a light (or double-click)",
+               [](Ui& ui) { ui.studio.add_light(kPlaceOfNewLight); }},
     KeyCommand{"shift+l", "Shift+L", "Lights", "lights where the plate is bright",
                [](Ui& ui) { ui.studio.detect_lights(); }},
     KeyCommand{"delete", "Delete", "Lights", "remove the selected light", remove_light},
@@ -164,6 +171,11 @@ constexpr std::array kKeys = {
     KeyCommand{"end", "End", "Frames", "the last frame",
                [](Ui& ui) { ui.studio.go_to_frame(ui.studio.view.last_frame); }},
     KeyCommand{"k", "K", "Frames", "key the selected light here", key_light},
+    KeyCommand{"ctrl+=", "Ctrl+=  Ctrl+-", "View", "larger, smaller interface", [](Ui& ui) { change_scale(ui, 1); }},
+    KeyCommand{"ctrl+shift+=", "", "View", "", [](Ui& ui) { change_scale(ui, 1); }},
+    KeyCommand{"ctrl+-", "", "View", "", [](Ui& ui) { change_scale(ui, -1); }},
+    KeyCommand{"ctrl+0", "Ctrl+0", "View", "interface as it was at the start",
+               [](Ui& ui) { ui.studio.view.interface_scale = 0; }},
     KeyCommand{"f1", "F1", "View", "these keys", [](Ui& ui) { ui.state.shows_help = !ui.state.shows_help; }},
     KeyCommand{"f2", "F2", "Panels", "section of the lens", [](Ui& ui) { show_bottom(ui, BottomTab::Section); }},
     KeyCommand{"f3", "F3", "Panels", "prescription", [](Ui& ui) { show_bottom(ui, BottomTab::Prescription); }},

@@ -45,6 +45,7 @@ void field(Ui& ui, std::size_t index, const LightField& f) {
   const std::string id = fmt::format("lights/{}/{}", index + 1, name);
   std::string text = light.*member;
   const bool is_entered = text_field(ui, id, text, ImGui::GetContentRegionAvail().x - scaled(26), hint);
+  tip(help);
   light_key(ui, index, part);
   if (!is_entered || text == light.*member) return;
   light.*member = text;
@@ -86,7 +87,7 @@ void position_field(Ui& ui, std::size_t index) {
   light_key(ui, index, LightPart::Position);
 }
 
-// A slider, where the value is a plain number, whose field next to it has that number.
+// A bar to drag, where the value is a plain number, whose field next to it has that number.
 void brightness_slider(Ui& ui, std::size_t index) {
   LightEntry light = lights_of(ui.studio.document())[index];
   const auto value = params::parse_real(light.value.empty() ? ui.studio.document().text("value") : light.value);
@@ -94,8 +95,7 @@ void brightness_slider(Ui& ui, std::size_t index) {
   auto amount = static_cast<float>(*value);
   ImGui::SetNextItemWidth(0.55F * (ImGui::GetContentRegionAvail().x - scaled(26)));
   ImGui::PushID(static_cast<int>(index) + 1000);
-  if (ImGui::SliderFloat("##brightness", &amount, 1, 1e7F, "",
-                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
+  if (drag_bar("##brightness", amount, 1, 1e7F, "", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
     light.value = fmt::format("{:.5g}", amount);
     ui.studio.edit(fmt::format("brightness of light {}", index + 1), fmt::format("light/{}/value", index),
                    [&](const Document& d) { return with_light(d, index, light); });
@@ -103,6 +103,7 @@ void brightness_slider(Ui& ui, std::size_t index) {
   if (ImGui::IsItemDeactivated()) ui.studio.end_gesture();
   ImGui::PopID();
   ui.registry.record(fmt::format("lights/{}/brightness", index + 1), fmt::format("{}", amount));
+  tip("Drag: brighter to the right, dimmer to the left; Alt: finer, Shift: coarser");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
 }
 
@@ -164,15 +165,9 @@ void draw_plate_line(Ui& ui) {
 }  // namespace
 
 void draw_lights_panel(Ui& ui) {
-  const std::size_t count = lights_of(ui.studio.document()).size();
   if (button(ui, "lights/add", "Add light",
-             "A light like the selected one, in the middle (or double-click in the picture)")) {
-    LightEntry light =
-        count > 0 ? lights_of(ui.studio.document())[std::min(ui.studio.selection.light, count - 1)] : LightEntry{};
-    light.at = {0.5, 0.4};
-    if (ui.studio.edit("add light", "", [&](const Document& d) { return with_new_light(d, light); }))
-      ui.studio.select_light(count);
-  }
+             "A light like the selected one, above the middle (L). A double-click in the picture adds it there."))
+    ui.studio.add_light(kPlaceOfNewLight);
   ImGui::SameLine();
   if (button(ui, "lights/detect", "From plate", "Lights where the plate is bright, in place of these (Shift+L)"))
     ui.studio.detect_lights();

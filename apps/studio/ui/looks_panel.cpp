@@ -19,6 +19,9 @@ void draw_tile_picture(Ui& ui, const Look& look, TextureSet& textures, ImVec2 mi
   const auto found = ui.studio.thumbnails().find(look.source);
   if (found == ui.studio.thumbnails().end() || found->second->rgba.empty()) {
     list.AddRectFilled(min, max, colours::kCanvas, scaled(4));
+    const char* text = "rendering\u2026";
+    list.AddText({0.5F * (min.x + max.x - text_width(text)), 0.5F * (min.y + max.y - ImGui::GetTextLineHeight())},
+                 colours::dim(), text);
     return;
   }
   const Thumbnail& thumbnail = *found->second;

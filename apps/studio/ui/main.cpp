@@ -128,6 +128,7 @@ int run_frames(Window& window, Interface& interface, std::optional<Script>& scri
       rest_until(rate.next_start_s(), window, interface.studio());
     answer_window(window, interface);
     settling = window.input().is_empty() ? std::max(0, settling - 1) : kSettlingFrames;
+    window.set_scale(static_cast<float>(interface.scale()));
     const double start = glfwGetTime();
     if (auto ok = run_frame(window, interface, script); !ok) return fail(ok.error());
     rate.frame(start, glfwGetTime());
@@ -148,7 +149,7 @@ int run(const Options& options) {
   const std::filesystem::path copies =
       options.state_folder.empty() ? state_folder() : std::filesystem::path(options.state_folder);
   Studio studio("first scene", first_document(), {Window::wake, copies, usual_look_folders()});
-  Interface interface(studio);
+  Interface interface(studio, static_cast<double>(options.window.scale));
   if (!options.file.empty()) interface.open_file(options.file);
   return run_frames(**window, interface, script, !options.window.waits_for_display);
 }

@@ -45,7 +45,7 @@ void draw_number(Ui& ui, const Parameter& p, const std::string& shown, float wid
   const float speed = whole ? 0.1F : std::max(1e-4F, 0.005F * std::fabs(number));
   const bool changed =
       slides && !whole && p.maximum - p.minimum <= 100
-          ? ImGui::SliderFloat("##value", &number, low, high, format, ImGuiSliderFlags_AlwaysClamp)
+          ? drag_bar("##value", number, low, high, format)
           : ImGui::DragFloat("##value", &number, speed, low, high, format, ImGuiSliderFlags_AlwaysClamp);
   if (ImGui::IsItemActive())
     drag = {key, number};

@@ -81,7 +81,13 @@ void draw_cell(Ui& ui, std::size_t row, LensColumn column) {
   std::string text = text_of_cell(ui, row, column);
   const std::string before = text;
   const std::string offered = ui.state.edit.id == id && ImGui::IsMouseClicked(0) ? ui.state.edit.offered : "";
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool is_hovered =
+      ImGui::IsWindowHovered() &&
+      ImGui::IsMouseHoveringRect(at, {at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetFrameHeight()});
+  if (is_hovered) ImGui::PushStyleColor(ImGuiCol_FrameBg, ImGui::GetStyleColorVec4(ImGuiCol_FrameBgHovered));
   bool accepted = text_field(ui, id, text, -1, "", column == LensColumn::Glass ? completed_glass : nullptr);
+  if (is_hovered) ImGui::PopStyleColor();
   if (column == LensColumn::Glass) draw_glass_completion(ui, id);
   if (!offered.empty()) {
     text = offered;
@@ -202,7 +208,8 @@ void set_up_lens_columns(const Ui& ui) {
                "To the next surface", "Behind the surface, by its name in the catalogue or as n,V; empty: air",
                "Half of the diameter that lets light pass", "0: a sphere; -1: a paraboloid",
                "none, quarter-wave, v-coat:550, \u2026 The panel Coatings (F4) shows what it does.",
-               "Refractive index and Abbe number of the glass behind the surface, at the d line"});
+               "Refractive index and Abbe number of the glass behind the surface, at the d line"},
+              2, static_cast<int>(kLensColumns.size()), scaled(kCellPadding));
 }
 
 }  // namespace

@@ -195,9 +195,7 @@ void draw_legend(Ui& ui) {
       ghost ? fmt::format("Ghost {}: the light reflects at surface {}, then at {}", ghost_name(*ghost), ghost->j,
                           ghost->i)
             : "Rays that form the image. Click a ghost in the picture or in its list to see its path.";
-  ImGui::PushStyleColor(ImGuiCol_Text, ghost ? colours::kAccent : colours::dim());
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
+  fitting_text(text, ImGui::GetContentRegionAvail().x, ghost ? colours::kAccent : colours::dim());
   ui.registry.record("section/legend", text);
 }
 

@@ -119,6 +119,7 @@ std::string Interface::state_json() const {
                       {"shown", json_of_shown(studio_.shown())},
                       {"ghosts", json_of_ghosts(studio_.figures())},
                       {"zoom", studio_.view.zoom},
+                      {"scale", scale()},
                       {"frame_of_shot", studio_.view.frame},
                       {"plays", studio_.is_playing()},
                       {"cached_frames", studio_.frame_cache().count()},

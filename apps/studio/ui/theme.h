@@ -17,6 +17,7 @@ inline constexpr ImU32 kLine = IM_COL32(62, 68, 78, 255);  // on the picture
 inline constexpr ImU32 kCanvas = IM_COL32(9, 10, 12, 255);
 inline constexpr ImU32 kShade = IM_COL32(12, 13, 16, 190);
 inline constexpr ImU32 kSelected = IM_COL32(102, 178, 255, 255);
+inline constexpr ImU32 kSelectedDim = IM_COL32(102, 178, 255, 110);
 // The colours of the theme in force, which high contrast changes; paler between BeginDisabled and EndDisabled.
 [[nodiscard]] ImU32 text();
 [[nodiscard]] ImU32 dim();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar at the top: lens and look, aperture and focal length, undo, files.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -21,6 +22,12 @@ std::vector<ListedLens> listed_lenses() {
     const auto lens = find_lens(name);
     listed.push_back({name, lens ? lens->name : name});
   }
+  const auto in_lower_case = [](const ListedLens& lens) {
+    std::string name = lens.full_name;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return name;
+  };
+  std::ranges::sort(listed, {}, in_lower_case);
   return listed;
 }
 
@@ -154,7 +161,7 @@ void draw_toolbar(Ui& ui) {
   const bool exports = button(ui, "toolbar/export", "Export");
   ImGui::PopStyleColor(4);
   tip("The picture, its layers, frames, the lens, a look, a report (Ctrl+E)");
-  if (exports) open_dialog(ui, Dialog::Export, usual_file(ui.state.export_kind));
+  if (exports) open_dialog(ui, Dialog::Export, file_to_export(ui));
   ImGui::SameLine();
   if (button(ui, "toolbar/help", "?", "All keys (F1)")) ui.state.shows_help = !ui.state.shows_help;
 }

@@ -104,7 +104,8 @@ void draw_exposure(Ui& ui) {
   if (ImGui::DragFloat("##exposure", &stops, 0.02F, -40, 40,
                        given && !is_narrow() ? "Exposure %+.1f EV"
                        : given               ? "%+.1f EV"
-                                             : "Auto %+.1f")) {
+                       : is_narrow()         ? "Auto %+.1f"
+                                             : "Auto %+.1f EV")) {
     studio.edit("set exposure", "exposure",
                 [&](const Document& d) { return with_value(d, "exposure", fmt::format("{:.2f}", stops)); });
     studio.refresh_display();
@@ -113,7 +114,12 @@ void draw_exposure(Ui& ui) {
   ui.registry.record("viewport/exposure", fmt::format("{:.3f}", stops));
   tip("The exposure of the view, and of PNG previews. Drag, or click to type.");
   ImGui::SameLine();
-  if (button(ui, "viewport/auto-exposure", "Auto", "Derive the exposure from the picture's brightest parts")) {
+  if (!given) ImGui::PushStyleColor(ImGuiCol_Text, colours::kAccent);
+  const bool becomes_automatic = button(ui, "viewport/auto-exposure", "Auto",
+                                        given ? "Derive the exposure from the picture's brightest parts"
+                                              : "The exposure follows the picture's brightest parts until you set it");
+  if (!given) ImGui::PopStyleColor();
+  if (becomes_automatic && given) {
     studio.edit("automatic exposure", "",
                 [](const Document& d) { return Result<Document>(without_value(d, "exposure")); });
     studio.refresh_display();

@@ -88,14 +88,6 @@ void draw_handle(Ui& ui, const ViewportMap& map, std::size_t index, Vec2 uv) {
                      fmt::format("{:.5f},{:.5f}", uv.x, uv.y));
 }
 
-void add_light_at(Ui& ui, Vec2 uv) {
-  auto lights = lights_of(ui.studio.document());
-  LightEntry light = lights.empty() ? LightEntry{} : lights.at(std::min(ui.studio.selection.light, lights.size() - 1));
-  light.at = uv;
-  if (ui.studio.edit("add light", "", [&](const Document& d) { return with_new_light(d, light); }))
-    ui.studio.select_light(lights.size());
-}
-
 void drag_light(Ui& ui, const ViewportMap& map, std::size_t light, ImVec2 grip) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseDelta.x == 0 && io.MouseDelta.y == 0) return;
@@ -128,9 +120,12 @@ bool use_light_handles(Ui& ui, const ViewportMap& map, bool is_hovered) {
     drag = {true, *under, {at.x - mouse.x, at.y - mouse.y}};
     ui.studio.select_light(*under);
   }
-  if (!under && is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-    add_light_at(ui, map.uv_of_screen(ImGui::GetIO().MousePos));
-  return under.has_value();
+  const bool adds = !under && is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  if (adds) {
+    ui.studio.add_light(map.uv_of_screen(ImGui::GetIO().MousePos));
+    ui.studio.select_ghost(std::nullopt);  // which the first of the two clicks has selected
+  }
+  return under.has_value() || adds;
 }
 
 }  // namespace contrejour::studio

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "studio/core/ghost_edits.h"
 #include "studio/ui/theme.h"
 #include "studio/ui/viewport_parts.h"
 
@@ -33,19 +34,18 @@ const GhostFootprint* footprint_called(const Studio& studio, const Ghost& ghost)
   return nullptr;
 }
 
-void draw_border(ImDrawList& list, const ViewportMap& map, const GhostFootprint& footprint) {
+void draw_border(ImDrawList& list, const ViewportMap& map, const GhostFootprint& footprint, ImU32 colour) {
   for (const auto& side : footprint.border_px)
-    list.AddLine(map.screen_of_pixel(side[0]), map.screen_of_pixel(side[1]), colours::kSelected, scaled(1.5F));
+    list.AddLine(map.screen_of_pixel(side[0]), map.screen_of_pixel(side[1]), colour, scaled(1.5F));
 }
 
-void draw_ellipse(ImDrawList& list, ImVec2 at, float rx, float ry) {
+void draw_ellipse(ImDrawList& list, ImVec2 at, float rx, float ry, ImU32 colour) {
   std::array<ImVec2, kOutlinePoints> points;
   for (int k = 0; k < kOutlinePoints; ++k) {
     const float t = 6.2831853F * static_cast<float>(k) / kOutlinePoints;
     points[static_cast<std::size_t>(k)] = {at.x + rx * std::cos(t), at.y + ry * std::sin(t)};
   }
-  for (std::size_t k = 0; k + 1 < points.size(); k += 2)
-    list.AddLine(points[k], points[k + 1], colours::kSelected, scaled(1.5F));
+  for (std::size_t k = 0; k + 1 < points.size(); k += 2) list.AddLine(points[k], points[k + 1], colour, scaled(1.5F));
 }
 
 }  // namespace
@@ -105,17 +105,20 @@ bool use_wipe_edge(Ui& ui, const ViewportMap& map, bool is_hovered) {
 
 void draw_selected_ghost(Ui& ui, const ViewportMap& map) {
   const GhostFigures* ghost = selected_figures(ui.studio);
-  if (ghost == nullptr || !ui.studio.view.shows_ghosts) return;
+  if (ghost == nullptr || !ui.studio.view.shows_ghosts || !(ghost->relative_flux > 0)) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const bool is_shown = is_drawn(ui.studio.document(), ghost->ghost);
+  const ImU32 colour = is_shown ? colours::kSelected : colours::kSelectedDim;
   const ImVec2 at = map.screen_of_pixel(ghost->centroid_px);
   const float rx = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.x));
   const float ry = std::fmax(scaled(6), 0.5F * map.scale * static_cast<float>(ghost->size_px.y));
   const GhostFootprint* footprint = footprint_called(ui.studio, ghost->ghost);
   if (footprint != nullptr)
-    draw_border(list, map, *footprint);
+    draw_border(list, map, *footprint, colour);
   else
-    draw_ellipse(list, at, rx, ry);
-  const std::string name = fmt::format("{}  {:.3g} %", name_for_people(ghost->ghost), 100 * ghost->relative_flux);
+    draw_ellipse(list, at, rx, ry, colour);
+  const std::string name = fmt::format("{}  {:.3g} %{}", name_for_people(ghost->ghost), 100 * ghost->relative_flux,
+                                       is_shown ? "" : ", hidden");
   const ImVec2 size = ImGui::CalcTextSize(name.c_str());
   const ImVec2 text = {std::fmin(at.x + scaled(8), map.canvas_max.x - size.x - scaled(8)),
                        at.y - ry - size.y - scaled(4)};
@@ -136,13 +139,13 @@ void draw_picture_badge(Ui& ui, bool is_short) {
   ImGui::GetWindowDrawList()->AddCircleFilled({at.x + scaled(8), at.y + 0.5F * height}, r, colour);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + scaled(20));
   ImGui::AlignTextToFramePadding();
-  const std::string kind = is_draft ? "Draft" : "Refined";
+  const std::string kind = is_draft ? "Draft" : is_current ? "Refined" : "Updating\u2026";
   const std::string text =
       shown.width == 0 ? "rendering\u2026"
       : is_short       ? kind
                  : fmt::format("{}  {} \u00d7 {}   {:.0f} ms", kind, shown.width, shown.height, shown.picture.time_ms);
   ImGui::TextUnformatted(text.c_str());
-  ui.registry.record("viewport/badge", is_draft ? "draft" : "refined");
+  ui.registry.record("viewport/badge", is_draft ? "draft" : is_current ? "refined" : "updating");
   tip("Amber: a draft, coarser so that it follows the light. Green: the picture of the command line, bit for bit.");
 }
 

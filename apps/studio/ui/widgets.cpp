@@ -30,13 +30,69 @@ const WidgetRecord* WidgetRegistry::find(const std::string& id) const {
   return found != widgets_.end() ? &*found : nullptr;
 }
 
+// In lines of at most this width, broken at spaces: Dear ImGui's own lines also break behind the point of a number.
+std::string wrapped(const std::string& text, float width) {
+  std::string lines;
+  std::size_t line = 0, at = 0;  // where the last line begins in `lines`; how much of the text is there
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at + 1), text.size());
+    const std::string word = text.substr(at, end - at);
+    const bool is_new = word.front() == '\n';
+    if (is_new || (lines.size() > line && text_width(lines.substr(line) + word) > width)) {
+      lines += '\n';
+      line = lines.size();
+      lines += word.front() == ' ' || is_new ? word.substr(1) : word;
+    } else {
+      lines += word;
+    }
+    at = end;
+  }
+  return lines;
+}
+
+// An item that is dragged or typed in, or was clicked just now, is looked at itself.
+bool is_in_use(ImVec2 min, ImVec2 max) {
+  constexpr double kAfterClick_s = 1.5;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool was_clicked =
+      ImRect(min, max).Contains(io.MouseClickedPos[0]) && ImGui::GetTime() - io.MouseClickedTime[0] < kAfterClick_s;
+  return was_clicked || ImGui::IsItemActive() || ImGui::IsMouseDown(ImGuiMouseButton_Left);
+}
+
+// Below the item, or above it where it would not fit; beside the mouse in a large one.
+ImVec2 place_of_tip(ImVec2 min, ImVec2 max, ImVec2 size) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize, mouse = ImGui::GetIO().MousePos;
+  const float gap = scaled(4), x = std::clamp(mouse.x, gap, std::max(gap, window.x - size.x - gap));
+  if (max.y - min.y > 3 * ImGui::GetFrameHeight()) {
+    min = {mouse.x, mouse.y - scaled(8)};
+    max = {mouse.x, mouse.y + scaled(20)};
+  }
+  return {x, max.y + gap + size.y < window.y ? max.y + gap : std::max(0.0F, min.y - gap - size.y)};
+}
+
 void tip(const char* text) {
   if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  if (is_in_use(min, max)) return;
+  const std::string shown = wrapped(text, scaled(420));
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding, text_size = ImGui::CalcTextSize(shown.c_str());
+  ImGui::SetNextWindowPos(place_of_tip(min, max, {text_size.x + 2 * padding.x, text_size.y + 2 * padding.y}));
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(scaled(420));
-  ImGui::TextUnformatted(text);
-  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(shown.c_str());
   ImGui::EndTooltip();
+}
+
+bool drag_bar(const char* label, float& value, float low, float high, const char* format, ImGuiSliderFlags flags) {
+  constexpr float kPerPixel = 0.002F;  // of the range
+  const bool changed = ImGui::DragFloat(label, &value, kPerPixel * (high - low) / scaled(1), low, high, format,
+                                        flags | ImGuiSliderFlags_AlwaysClamp);
+  const float part = (flags & ImGuiSliderFlags_Logarithmic) != 0 ? std::log(value / low) / std::log(high / low)
+                                                                 : (value - low) / (high - low);
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  const float right = min.x + std::clamp(part, 0.0F, 1.0F) * (max.x - min.x);
+  if (right > min.x + 1)
+    ImGui::GetWindowDrawList()->AddRectFilled({min.x, max.y - scaled(3)}, {right, max.y}, colours::kAccent, scaled(2));
+  return changed;
 }
 
 bool button(Ui& ui, const std::string& id, const char* label, const char* text, ImVec2 size) {
@@ -111,12 +167,13 @@ bool contains_in_any_case(std::string_view text, std::string_view part) {
                      [&](char a, char b) { return lower(a) == lower(b); }) != text.end();
 }
 
-void heading_row(std::initializer_list<const char*> tips) {
+void heading_row(std::initializer_list<const char*> tips, int first_field, int fields, float indent) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   int column = 0;
   for (const char* text : tips) {
     if (ImGui::TableSetColumnIndex(column)) {
       ImGui::PushID(column);
+      if (column >= first_field && column < first_field + fields) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
       ImGui::TableHeader(ImGui::TableGetColumnName(column));
       ImGui::PopID();
       tip(text);
@@ -151,6 +208,8 @@ int complete_text(ImGuiInputTextCallbackData* data) {
 
 bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint, Completion complete) {
   TextEdit& edit = ui.state.edit;
+  if (edit.refused_id == id && (edit.refused_over != text || ui.studio.history().position() < edit.refused_at))
+    edit.refused_id.clear();
   const bool is_edited = edit.id == id, is_refused = edit.refused_id == id;
   std::string& shown = is_edited ? edit.text : is_refused ? edit.refused_text : text;
   if (is_refused) ImGui::PushStyleColor(ImGuiCol_FrameBg, colours::kBadBack);
@@ -173,6 +232,7 @@ bool text_field(Ui& ui, const std::string& id, std::string& text, float width, c
   }
   if (!left && !entered) return false;
   const bool accepts = entered || was_changed;
+  edit.entered_over = text;
   if (accepts) text = edit.id == id ? edit.text : shown;
   if (edit.id == id) edit.id.clear();
   if (is_refused) edit.refused_id.clear();
@@ -183,6 +243,8 @@ void refuse_text(Ui& ui, const std::string& id, const std::string& text, const s
   ui.state.edit.refused_id = id;
   ui.state.edit.refused_text = text;
   ui.state.edit.reason = reason;
+  ui.state.edit.refused_over = ui.state.edit.entered_over;
+  ui.state.edit.refused_at = ui.studio.history().position();
 }
 
 void begin_completions(std::size_t lines) {
@@ -206,9 +268,14 @@ bool completion(const std::string& text) {
   return is_under_mouse;
 }
 
+bool is_wholly_in_sight() {
+  const ImVec2 low = ImGui::GetWindowDrawList()->GetClipRectMin(), high = ImGui::GetWindowDrawList()->GetClipRectMax();
+  return ImGui::GetItemRectMin().y >= low.y && ImGui::GetItemRectMax().y <= high.y;
+}
+
 void bring_into_sight(const Ui& ui, int surface, int& in_sight) {
   if (ui.studio.selection.surface != surface || in_sight == surface) return;
-  ImGui::SetScrollHereY(0.5F);
+  if (!is_wholly_in_sight()) ImGui::SetScrollHereY(0.5F);
   in_sight = surface;
 }
 

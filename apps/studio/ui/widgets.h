@@ -5,6 +5,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,8 @@ struct TextEdit {
   std::string text;
   std::string offered;  // the completion under the mouse; empty: none
   std::string refused_id, refused_text, reason;  // the last text that was not accepted
+  std::string entered_over, refused_over;  // the value in force when a text was entered, and when one was refused
+  std::size_t refused_at = 0;  // step of the history
 };
 
 // The drag of a light that goes on; it ends with the button.
@@ -98,12 +101,14 @@ struct InterfaceState {
   bool dialog_opens = false, dialog_has_failed = false;
   std::string path, ghost_filter, parameter_filter, lens_filter;
   std::array<std::string, 8> folders;  // in which each dialog opens, as Dialog; empty: the program's
+  std::array<std::string, kExportKinds.size()> exported;  // the last file's name of each kind
   bool shows_all_files = false, path_wants_keys = false, selects_name = false;  // of file dialogs
   std::vector<ListedLens> lenses;  // the bundled ones, once their list was opened
   std::string asked_path;  // the file that the user was asked about, since it exists
   GhostOrder ghost_order = GhostOrder::Visibility;
   float side_width = 450, bottom_height = 272;  // at scale 1
   int coating_in_sight = 0, row_in_sight = 0;  // the surfaces that lists were scrolled to last
+  std::optional<Ghost> ghost_in_sight;  // the same of the ghosts' list
   TextEdit edit;
   LightDrag drag;
   ExportKind export_kind = ExportKind::Picture;
@@ -116,9 +121,18 @@ struct InterfaceState {
   bool drags_wipe = false;
   bool viewport_has_keys = true;  // arrows and Tab are the viewport's
   ImVec2 probe{-1, -1};  // the picture's pixel under the mouse; negative: none
-  bool wants_to_quit = false;
+  bool asks_to_quit = false, wants_to_quit = false;
+  bool quits_when_saved = false;  // the dialog that saves was opened on the way out
+  double started_scale = 1;  // of the interface
   std::vector<LostWork> lost;
 };
+
+inline constexpr Vec2 kPlaceOfNewLight{0.5, 0.4};
+
+// The scale of the interface: that which the user has set, else that of the start.
+[[nodiscard]] inline double scale_of(const View& view, const InterfaceState& state) {
+  return view.interface_scale > 0 ? view.interface_scale : state.started_scale;
+}
 
 // The arguments of every panel.
 struct Ui {
@@ -141,11 +155,11 @@ void fitting_text(const std::string& text, float width, ImU32 colour);
 [[nodiscard]] float text_width(const std::string& text);
 // ASCII letters in any case.
 [[nodiscard]] bool contains_in_any_case(std::string_view text, std::string_view part);
-// The headings of a table's columns, each with its tip.
-void heading_row(std::initializer_list<const char*> tips);
+// The headings of a table's columns, each with its tip. Columns of fields: their padding.
+void heading_row(std::initializer_list<const char*> tips, int first_field = 0, int fields = 0, float indent = 0);
 // A text field that keeps what is typed until Enter or a click elsewhere; true when it is to be accepted, `text` then
-// has it. Refused text stays, in red, with the reason as its tip. complete: what Tab makes of the text; none: Tab goes
-// on.
+// has it. Refused text stays, in red, with the reason as its tip, until the value changes or a step is undone.
+// complete: what Tab makes of the text; none: Tab goes on.
 bool text_field(Ui& ui, const std::string& id, std::string& text, float width, const char* hint = "",
                 std::string (*complete)(const std::string& text) = nullptr);
 void refuse_text(Ui& ui, const std::string& id, const std::string& text, const std::string& reason);
@@ -156,8 +170,17 @@ void begin_completions(std::size_t lines);
 // One of them; true while the mouse is over it.
 [[nodiscard]] bool completion(const std::string& text);
 
+// A number between two limits, which is dragged by hand and shown as a bar below it, too; true if it has changed.
+[[nodiscard]] bool drag_bar(const char* label, float& value, float low, float high, const char* format,
+                            ImGuiSliderFlags flags = 0);
+
+// The item drawn last, in a list that scrolls.
+[[nodiscard]] bool is_wholly_in_sight();
 // Scrolls the list to the item drawn last if its surface is selected, once.
 void bring_into_sight(const Ui& ui, int surface, int& in_sight);
+
+// The name that the last export of the chosen kind had, or its usual one.
+[[nodiscard]] std::string file_to_export(const Ui& ui);
 
 // In the folder that it was left in, if the path has none. A session to be saved gets a name.
 void open_dialog(Ui& ui, Dialog dialog, std::string path = {});

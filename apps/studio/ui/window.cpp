@@ -75,10 +75,12 @@ Result<std::unique_ptr<Window>> Window::open(const WindowSettings& settings) {
   glfwMakeContextCurrent(window);
   glfwSwapInterval(settings.waits_for_display ? 1 : 0);
   set_up_imgui(window, settings);
-  return std::unique_ptr<Window>(new Window(window));
+  return std::unique_ptr<Window>(new Window(window, settings));
 }
 
-Window::Window(GLFWwindow* window) : window_(window), keeps_pixels_(swap_copies()), last_frame_s_(glfwGetTime()) {
+Window::Window(GLFWwindow* window, const WindowSettings& settings)
+    : window_(window), scale_(settings.scale), high_contrast_(settings.high_contrast), keeps_pixels_(swap_copies()),
+      last_frame_s_(glfwGetTime()) {
   connect();
 }
 
@@ -163,6 +165,15 @@ void Window::end_frame(const std::function<void()>& before_swap) {
   const bool shows = draw_changes();
   if (before_swap) before_swap();
   if (shows) glfwSwapBuffers(window_);
+}
+
+void Window::set_scale(float scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  set_theme(scale, high_contrast_);
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  redraw();
 }
 
 void Window::prepare_reading() {

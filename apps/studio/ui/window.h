@@ -39,6 +39,8 @@ class Window {
   void end_frame(const std::function<void()>& before_swap = {});
   // The next frame is drawn whole, whatever has changed.
   void redraw() { tiles_.forget(); }
+  // Of fonts and distances, between two frames.
+  void set_scale(float scale);
   [[nodiscard]] double drawn_part() const { return drawn_part_; }  // of the window's pixels, by the last frame
   // The next frame's pixels will be read.
   void prepare_reading();
@@ -54,7 +56,7 @@ class Window {
   [[nodiscard]] int height() const { return height_; }
 
  private:
-  explicit Window(GLFWwindow* window);
+  Window(GLFWwindow* window, const WindowSettings& settings);
   void connect();
   [[nodiscard]] bool draw_changes();
 
@@ -62,6 +64,8 @@ class Window {
   InputQueue input_;
   ChangedTiles tiles_;
   std::string dropped_, title_;
+  float scale_ = 1;
+  bool high_contrast_ = false;
   bool keeps_pixels_ = false;  // a frame finds those of the frame before
   double last_frame_s_ = 0, drawn_part_ = 0;
   int width_ = 0, height_ = 0;
