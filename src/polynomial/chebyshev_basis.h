@@ -11,7 +11,7 @@
 
 namespace contrejour::inline internal::polynomial {
 
-inline constexpr int kMaxDegree = 8;  // in u, v and w together: order 17
+inline constexpr int kMaxDegree = 10;  // in u, v and w together: order 21
 inline constexpr int kMaxWavelengthTerms = 13;
 
 [[nodiscard]] constexpr int term_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }
@@ -38,6 +38,13 @@ struct ZonePoint {
   double h = 0.0;  // the field over the zone's highest
   Vec2 p;  // pupil point, |p| <= 1
   double u = 0.0, v = 0.0, w = 0.0;
+  double s = 0.0;  // in place of w for positions on the sensor and transmittances
+
+  [[nodiscard]] ZonePoint of_light() const {
+    ZonePoint point = *this;
+    point.w = s;
+    return point;
+  }
 };
 [[nodiscard]] ZonePoint zone_point(const PolynomialZone& zone, double field, Vec2 entrance_mm);
 // The coordinate of the field alone, and the centre of the pupil coordinates at it, mm along x.

@@ -90,7 +90,8 @@ class ZoneFit {
  public:
   ZoneFit(const ZoneProblem& problem, const FitRays& rays, const Checks& checks, std::vector<PolynomialZone>& zones)
       : problem_(problem), options_(problem.options), rays_(rays), checks_(checks), zones_(zones),
-        sensor_(rays, rays.for_sensor), light_(rays, rays.for_light), edges_(rays, rays.for_edges) {}
+        sensor_(rays, rays.for_sensor, rays.light_points), light_(rays, rays.for_light, rays.light_points),
+        edges_(rays, rays.for_edges, rays.points) {}
 
   // Returns whether all outputs are accurate enough.
   bool run() {

@@ -97,8 +97,9 @@ Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> point
   return rows;
 }
 
-GrowingSystem::GrowingSystem(const FitRays& rays, const WeightedRays& weighted, bool of_vectors)
-    : rays_(rays), weighted_(weighted), coordinates_(of_vectors ? 2 : 1),
+GrowingSystem::GrowingSystem(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points,
+                             bool of_vectors)
+    : rays_(rays), weighted_(weighted), points_(points), coordinates_(of_vectors ? 2 : 1),
       squares_(coordinates_ * weighted.used.size(), kRidge) {}
 
 // Adds the terms whose degrees sum to one more than before.
@@ -108,7 +109,7 @@ void GrowingSystem::grow() {
   std::vector<double> columns(coordinates_ * terms * padded, 0.0);
   std::array<double, kMaxDegree + 1> u{}, v{}, w{};
   for (std::size_t k = 0; k < weighted_.used.size(); ++k) {
-    const ZonePoint& point = rays_.points[weighted_.used[k]];
+    const ZonePoint& point = points_[weighted_.used[k]];
     chebyshev_values(point.u, u);
     chebyshev_values(point.v, v);
     chebyshev_values(point.w, w);

@@ -33,8 +33,8 @@ inline constexpr double kRidge = 1e-7;
 // asked for. Unknowns are ordered by degree, those of A before those of B.
 class GrowingSystem {
  public:
-  // All must outlive it.
-  GrowingSystem(const FitRays& rays, const WeightedRays& weighted, bool of_vectors);
+  // points: of all rays. All must outlive it.
+  GrowingSystem(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points, bool of_vectors);
 
   // The coefficients for right-hand sides, in the order of ChebyshevSum; for vectors those of A, then those of B.
   [[nodiscard]] std::vector<std::vector<double>> solve(int degree, GrowingLeastSquares::Right& right);
@@ -48,6 +48,7 @@ class GrowingSystem {
 
   const FitRays& rays_;
   const WeightedRays& weighted_;
+  std::span<const ZonePoint> points_;
   std::size_t coordinates_;
   GrowingLeastSquares squares_;
   int degree_ = -1;
@@ -56,8 +57,8 @@ class GrowingSystem {
 // The systems of some of a zone's rays.
 class Systems {
  public:
-  Systems(const FitRays& rays, const WeightedRays& weighted)
-      : weighted_(weighted), scalars_(rays, weighted, false), vectors_(rays, weighted, true) {}
+  Systems(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points)
+      : weighted_(weighted), scalars_(rays, weighted, points, false), vectors_(rays, weighted, points, true) {}
 
   [[nodiscard]] bool has_enough_rays(int degree) const;
   [[nodiscard]] GrowingSystem& scalars() { return scalars_; }

@@ -37,6 +37,21 @@ TEST_CASE("a file is read as the values that were written") {
   CHECK(read->lens.find("triplet") != std::string::npos);
 }
 
+// Files of before the pupil's end have three numbers for a pupil's coordinates.
+TEST_CASE("a file keeps the pupil's end of each zone, and may have none") {
+  auto fit = *read_polynomials(triplet_file(), "a.poly");
+  const auto fitted = [](const PolynomialZone& zone) { return zone.state == PolynomialZone::State::Fitted; };
+  int ends = 0;
+  for (GhostPolynomials& ghost : fit.ghosts)
+    for (PolynomialZone& zone : ghost.zones)
+      if (fitted(zone)) ends += zone.pupil_end > 0.1 && zone.pupil_end < 2.0 ? 1 : 0, zone.pupil_end = 0.0;
+  CHECK(ends >= 5);
+  const auto without = read_polynomials(write_polynomials(fit), "a.poly");
+  REQUIRE(without.has_value());
+  for (const GhostPolynomials& ghost : without->ghosts)
+    for (const PolynomialZone& zone : ghost.zones) CHECK(zone.pupil_end == 0.0);
+}
+
 TEST_CASE("errors name the file and the remedy") {
   CHECK(error_of("").starts_with("a.poly: "));
   CHECK(error_of("not CBOR at all").starts_with("a.poly: "));
