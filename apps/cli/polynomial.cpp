@@ -253,8 +253,8 @@ void add_polynomial_fit(CLI::App& polynomial, Action& action) {
                    "largest angle of a light to the axis, degrees; 0: that of the sensor's corner and a tenth more")
       ->check(CLI::Range(0.0, 85.0))
       ->capture_default_str();
-  command->add_option("--max-order", options->max_order, "highest order, odd: 5 to 21")
-      ->check(CLI::IsMember({5, 7, 9, 11, 13, 15, 17, 19, 21}))
+  command->add_option("--max-order", options->max_order, "highest order, odd: 5 to 17")
+      ->check(CLI::IsMember({5, 7, 9, 11, 13, 15, 17}))
       ->capture_default_str();
   CLI::Option* const zoom =
       command

@@ -125,7 +125,7 @@ def fit_polynomials(
 
     zoom, focus: two focal lengths, or two distances of the object, in mm: one fit for all between them.
     half_field_deg: the largest angle of a light to the axis; 0: that of the sensor's corner and a tenth more.
-    max_order: odd, 5 to 21.
+    max_order: odd, 5 to 17.
     only: the surfaces of ghosts, (2, 5): no others are fitted. Without it, those of the parameter "ghosts".
     progress, cancel: as of render(). parameters: of the lens, and "ghosts", "reflections", "threads".
     """

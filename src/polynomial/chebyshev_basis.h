@@ -11,7 +11,7 @@
 
 namespace contrejour::inline internal::polynomial {
 
-inline constexpr int kMaxDegree = 10;  // in u, v and w together: order 21
+inline constexpr int kMaxDegree = 8;  // in u, v and w together: order 17
 inline constexpr int kMaxWavelengthTerms = 13;
 
 [[nodiscard]] constexpr int term_count(int degree) { return (degree + 1) * (degree + 2) * (degree + 3) / 6; }

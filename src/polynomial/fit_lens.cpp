@@ -80,7 +80,7 @@ LensState wide_open(const LensState& lens) {
 
 Result<void> check_fit_options(const PolynomialOptions& options) {
   if (options.max_order < 5 || options.max_order > 2 * kMaxDegree + 1 || options.max_order % 2 == 0)
-    return invalid_argument(fmt::format("the largest order is {}; choose an odd one, 5 to 21", options.max_order));
+    return invalid_argument(fmt::format("the largest order is {}; choose an odd one, 5 to 17", options.max_order));
   if (options.max_halvings < 0 || options.max_halvings > kMaxHalvings)
     return invalid_argument(fmt::format("the field cannot be halved {} times; choose 0 to 4", options.max_halvings));
   for (const double tolerance : {options.position_px, options.edge, options.transmittance, options.target_px})

@@ -109,12 +109,10 @@ CONTREJOUR_INLINE_IF_FAST Points value_of(const PowerSum& sum, const Points& v, 
     case 6: return sum_over_v<6, 0>(c, v, w);
     case 7: return sum_over_v<7, 0>(c, v, w);
     case 8: return sum_over_v<8, 0>(c, v, w);
-    case 9: return sum_over_v<9, 0>(c, v, w);
-    case 10: return sum_over_v<10, 0>(c, v, w);
     default: return sum_of_any_degree(c, sum.degree, v, w);
   }
 }
-static_assert(kMaxDegree == 10);
+static_assert(kMaxDegree == 8);
 
 // 1 - 2 sqrt(1 - squared per_end), 1 beyond the end.
 template <class Points>

@@ -28,7 +28,7 @@ struct DirectFitOptions {
   // where a ray lands, in pixels of the sensor's width / 1920; at the rims in radii; transmittance relative to the
   // largest.
   double position_px = 0.01, edge = 3e-4, transmittance = 5e-4;
-  int max_order = 17;  // odd, 5 to 21
+  int max_order = 17;  // 5, 7, 9, 11, 13, 15 or 17
 };
 
 // Errors of rays that were left out of the fit, at random sensor points, stop points and wavelengths: the ray that the

@@ -33,8 +33,8 @@ struct PolynomialOptions {
   double edge = 1e-3;
   double transmittance = 2e-3;
   // Orders rise from 5 in steps of 2 until 95 per cent of errors are below this, or the largest order is reached.
-  double target_px = 0.01;
-  int max_order = 17;  // odd, 5 to 21
+  double target_px = 0.007;
+  int max_order = 17;  // 5, 7, 9, 11, 13, 15 or 17
   int max_halvings = 3;  // of the field, where a ghost fails; 0 to 4
   GhostScope scope = GhostScope::All;
   Reflections reflections = Reflections::Two;
