@@ -44,7 +44,8 @@ void evaluate_points_of(benchmark::State& state, int order, std::int64_t target)
   const PointOutputs outputs{vectors, rims, out[5].data(), 1, 1.0F, {&sums[5], out[6].data()}, 1.0F};
   hwy::SetSupportedTargetsForTest(target);
   for (auto _ : state) {
-    evaluate_points({0.1F, 0.0F, 0.05F, 0.8F}, x.data(), y.data(), kPoints, outputs);
+    evaluate_points({.x = 0.1F, .y = 0.0F, .per_mm = 0.05F, .h = 0.8F, .per_end = 1.0F}, x.data(), y.data(), kPoints,
+                    outputs);
     benchmark::ClobberMemory();
   }
   hwy::SetSupportedTargetsForTest(0);
@@ -52,7 +53,7 @@ void evaluate_points_of(benchmark::State& state, int order, std::int64_t target)
 }
 
 const bool kRegistered = [] {
-  for (const int order : {5, 7, 9, 11, 13}) {
+  for (const int order : {5, 7, 9, 11, 13, 15, 17}) {
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
       const std::string name =
           std::string("evaluate_points/") + hwy::TargetName(target) + "/order:" + std::to_string(order);

@@ -24,7 +24,7 @@ class AsymmetricSystems {
   AsymmetricSystems(int degree, const std::vector<AsymmetricPoint>& points) : degree_(degree), points_(points) {}
 
   // The polynomial that fits values of rays best; none if there are too few rays. weighted: must outlive it.
-  // wavelength_step, negligible: as for fitted_sums().
+  // wavelength_step, negligible: as for OutputFit.
   [[nodiscard]] std::optional<ChebyshevSum> fit(const WeightedRays& weighted, const Parities& parities,
                                                 int wavelength_step, const RayValue& value, double negligible);
 

@@ -21,7 +21,10 @@ ZonePoint zone_point(const PolynomialZone& zone, double field, Vec2 entrance_mm)
   point.p = (entrance_mm - Vec2{centre_at(zone, field), 0.0}) * (1.0 / zone.radius_mm);
   point.u = field_coordinate(zone, field);
   point.v = point.h * point.p.x;
-  point.w = 2.0 * dot(point.p, point.p) - 1.0;
+  const double squared = dot(point.p, point.p);
+  point.w = 2.0 * squared - 1.0;
+  const double end = zone.pupil_end;
+  point.s = end > 0.0 ? 1.0 - 2.0 * std::sqrt(std::max(1.0 - squared / (end * end), 0.0)) : point.w;
   return point;
 }
 
@@ -76,17 +79,19 @@ PolynomialRay evaluate(const LensPolynomials& polynomials, const PolynomialZone&
   using namespace polynomial;
   const ZonePoint point = zone_point(zone, field, entrance_mm);
   const double wavelength = wavelength_coordinate(polynomials, lambda_nm);
-  const auto vector_of = [&](const ChebyshevVector& vector) {
-    const double along_field = value_of(vector.along_field, point, wavelength);
-    return Vec2{point.h * along_field, 0.0} + point.p * value_of(vector.along_pupil, point, wavelength);
+  const ZonePoint of_light = point.of_light();
+  const auto vector_at = [&](const ChebyshevVector& vector, const ZonePoint& at) {
+    const double along_field = value_of(vector.along_field, at, wavelength);
+    return Vec2{at.h * along_field, 0.0} + at.p * value_of(vector.along_pupil, at, wavelength);
   };
   PolynomialRay ray;
-  ray.sensor_mm = vector_of(zone.sensor_mm);
-  for (std::size_t c = 0; c < zone.stop.size() && c < ray.stop.size(); ++c) ray.stop[c] = vector_of(zone.stop[c]);
+  ray.sensor_mm = vector_at(zone.sensor_mm, of_light);
+  for (std::size_t c = 0; c < zone.stop.size() && c < ray.stop.size(); ++c)
+    ray.stop[c] = vector_at(zone.stop[c], point);
   double squared = 0.0;
   for (const PolynomialRim& rim : zone.rims) squared = std::max(squared, value_of(rim.squared, point, wavelength));
   ray.relative_height = std::sqrt(squared);
-  ray.transmittance = value_of(zone.transmittance, point, wavelength);
+  ray.transmittance = value_of(zone.transmittance, of_light, wavelength);
   return ray;
 }
 

@@ -38,6 +38,13 @@ struct ZonePoint {
   double h = 0.0;  // the field over the zone's highest
   Vec2 p;  // pupil point, |p| <= 1
   double u = 0.0, v = 0.0, w = 0.0;
+  double s = 0.0;  // in place of w for positions on the sensor and transmittances
+
+  [[nodiscard]] ZonePoint of_light() const {
+    ZonePoint point = *this;
+    point.w = s;
+    return point;
+  }
 };
 [[nodiscard]] ZonePoint zone_point(const PolynomialZone& zone, double field, Vec2 entrance_mm);
 // The coordinate of the field alone, and the centre of the pupil coordinates at it, mm along x.

@@ -139,7 +139,8 @@ class EvaluatedRays final : public RaySource {
             .per_mm = static_cast<float>(per_mm.x),
             .h = static_cast<float>(field_.h),
             .symmetric = field_.is_symmetric,
-            .y_per_mm = static_cast<float>(per_mm.y)};
+            .y_per_mm = static_cast<float>(per_mm.y),
+            .per_end = field_.pupil_end > 0.0 ? static_cast<float>(1.0 / (field_.pupil_end * field_.pupil_end)) : 0.0F};
   }
 
   const FieldPolynomials& field_;
@@ -161,7 +162,7 @@ Vec2 mirrored_by(const FoundAsymmetricZone& found, Vec2 v) {
 FieldPolynomials::FieldPolynomials(const PreparedZone& prepared, const PolynomialZone& zone, double field)
     : sensor_mm(prepared.sensor_mm, field_coordinate(zone, field)),
       transmittance(prepared.transmittance, field_coordinate(zone, field)), h(field / zone.field_high),
-      centre_mm{centre_at(zone, field), 0.0}, radius_mm{zone.radius_mm, zone.radius_mm} {
+      centre_mm{centre_at(zone, field), 0.0}, radius_mm{zone.radius_mm, zone.radius_mm}, pupil_end(zone.pupil_end) {
   const double u = field_coordinate(zone, field);
   for (const PreparedVector& crossing : prepared.stop) stop.emplace_back(crossing, u);
   for (const PreparedSum& rim : prepared.rims) rims.emplace_back(rim, u);

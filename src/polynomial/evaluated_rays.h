@@ -36,6 +36,7 @@ struct FieldPolynomials {
   bool is_symmetric = true;
   double h = 0.0;
   Vec2 centre_mm, radius_mm{1.0, 1.0};  // of pupil points
+  double pupil_end = 0.0;  // PolynomialZone's, where symmetric
   double stop_scale = 1.0;  // from the fit's stop radii to the requested ones
   Vec2 shift_mm;  // from the requested entrance plane to the fit's
   Rectangle region;  // that light enters within; its upper half where symmetric

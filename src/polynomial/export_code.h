@@ -41,36 +41,46 @@ LOCALREAL @value(int sum, INREAL tu[14], INREAL tv[14], INREAL tw[14], INREAL tl
 
 // The squared tangent, -1 and 1 at the ends of a zone.
 LOCALREAL @field_in(int zone, REAL field) {
-  REAL low = @zones[5 * zone], high = @zones[5 * zone + 1];
+  REAL low = @zones[6 * zone], high = @zones[6 * zone + 1];
   return (2.0 * field * field - low * low - high * high) / (high * high - low * low);
 }
 
 LOCALREAL @centre(int zone, REAL field) {
-  return (@zones[5 * zone + 2] + @zones[5 * zone + 3] * @field_in(zone, field)) * field;
+  return (@zones[6 * zone + 2] + @zones[6 * zone + 3] * @field_in(zone, field)) * field;
 }
 
 BOOL @ray(int ghost, REAL field, REAL x_mm, REAL y_mm, REAL lambda_nm, OUTREAL result[10]) {
   for (int i = 0; i < 10; ++i) result[i] = 0.0;
   for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
-    if (field < @zones[5 * k] || field > @zones[5 * k + 1]) continue;
+    if (field < @zones[6 * k] || field > @zones[6 * k + 1]) continue;
     int sum = @parts[5 * k];
-    REAL tu[14], tv[14], tw[14], tl[14];
-    REAL h = field / @zones[5 * k + 1], radius = @zones[5 * k + 4];
+    REAL tu[14], tv[14], tw[14], ts[14], tl[14];
+    REAL h = field / @zones[6 * k + 1], radius = @zones[6 * k + 4];
     REAL px = (x_mm - @centre(k, field)) / radius, py = y_mm / radius;
     @chebyshev(@field_in(k, field), tu);
     @chebyshev(h * px, tv);
-    @chebyshev(2.0 * (px * px + py * py) - 1.0, tw);
+    REAL squared = px * px + py * py, per_end = @zones[6 * k + 5];
+    REAL w = 2.0 * squared - 1.0;
+    @chebyshev(w, tw);
+    @chebyshev(per_end > 0.0 ? 1.0 - 2.0 * sqrt(@higher(1.0 - squared * per_end, 0.0)) : w, ts);
     @chebyshev_in_wavelength(lambda_nm, tl);
     for (int i = 0; i <= @parts[5 * k + 1]; ++i, sum += 2) {
-      REAL a = @value(sum, tu, tv, tw, tl), b = @value(sum + 1, tu, tv, tw, tl);
+      REAL a, b;
+      if (i == 0) {
+        a = @value(sum, tu, tv, ts, tl);
+        b = @value(sum + 1, tu, tv, ts, tl);
+      } else {
+        a = @value(sum, tu, tv, tw, tl);
+        b = @value(sum + 1, tu, tv, tw, tl);
+      }
       result[2 * i] = h * a + px * b;
       result[2 * i + 1] = py * b;
     }
     for (int i = 0; i < @parts[5 * k + 2]; ++i, ++sum) {
-      REAL squared = @value(sum, tu, tv, tw, tl);
-      if (squared > result[8]) result[8] = squared;
+      REAL height = @value(sum, tu, tv, tw, tl);
+      if (height > result[8]) result[8] = height;
     }
-    result[9] = @value(sum, tu, tv, tw, tl);
+    result[9] = @value(sum, tu, tv, ts, tl);
     return YES;
   }
   return NO;
@@ -79,7 +89,7 @@ BOOL @ray(int ghost, REAL field, REAL x_mm, REAL y_mm, REAL lambda_nm, OUTREAL r
 BOOL @bounds(int ghost, REAL field, OUTREAL result[3]) {
   for (int i = 0; i < 3; ++i) result[i] = 0.0;
   for (int k = @first_zone[ghost]; k < @first_zone[ghost + 1]; ++k) {
-    if (field < @zones[5 * k] || field > @zones[5 * k + 1]) continue;
+    if (field < @zones[6 * k] || field > @zones[6 * k + 1]) continue;
     int b = 4 * @parts[5 * k + 3];
     for (int j = 1; j < @parts[5 * k + 4]; ++j, b += 4) {
       if (field < @fields[b] || field > @fields[b + 4]) continue;
@@ -126,40 +136,40 @@ def @value(index, tu, tv, tw, tl):
 
 def @ray(ghost, field, x_mm, y_mm, lambda_nm):
     for k in range(@first_zone[ghost], @first_zone[ghost + 1]):
-        low, high, centre, slope, radius = @zones[5 * k : 5 * k + 5]
+        low, high, centre, slope, radius, per_end = @zones[6 * k : 6 * k + 6]
         if field < low or field > high:
             continue
         at, crossings, rims = @parts[5 * k : 5 * k + 3]
         u = (2.0 * field * field - low * low - high * high) / (high * high - low * low)
         h = field / high
         px, py = (x_mm - (centre + slope * u) * field) / radius, y_mm / radius
-        bases = (
-            @chebyshev(u),
-            @chebyshev(h * px),
-            @chebyshev(2.0 * (px * px + py * py) - 1.0),
-            @chebyshev_in_wavelength(lambda_nm),
-        )
+        squared = px * px + py * py
+        w = 2.0 * squared - 1.0
+        s = 1.0 - 2.0 * max(1.0 - squared * per_end, 0.0) ** 0.5 if per_end > 0.0 else w
+        tu, tv, tl = @chebyshev(u), @chebyshev(h * px), @chebyshev_in_wavelength(lambda_nm)
+        bases, light_bases = (tu, tv, @chebyshev(w), tl), (tu, tv, @chebyshev(s), tl)
         out = [0.0] * 10
         for i in range(crossings + 1):
-            a, b = @value(at, *bases), @value(at + 1, *bases)
+            here = light_bases if i == 0 else bases
+            a, b = @value(at, *here), @value(at + 1, *here)
             out[2 * i], out[2 * i + 1] = h * a + px * b, py * b
             at += 2
         for _ in range(rims):
             out[8] = max(out[8], @value(at, *bases))
             at += 1
-        out[9] = @value(at, *bases)
+        out[9] = @value(at, *light_bases)
         return out
     return None
 
 
 def @centre(zone, field):
-    low, high, centre, slope = @zones[5 * zone : 5 * zone + 4]
+    low, high, centre, slope = @zones[6 * zone : 6 * zone + 4]
     return (centre + slope * (2.0 * field * field - low * low - high * high) / (high * high - low * low)) * field
 
 
 def @bounds(ghost, field):
     for k in range(@first_zone[ghost], @first_zone[ghost + 1]):
-        if field < @zones[5 * k] or field > @zones[5 * k + 1]:
+        if field < @zones[6 * k] or field > @zones[6 * k + 1]:
             continue
         first, count = @parts[5 * k + 3 : 5 * k + 5]
         for b in range(4 * first, 4 * (first + count - 1), 4):

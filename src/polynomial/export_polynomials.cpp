@@ -25,7 +25,9 @@ struct ExportTables {
   [[nodiscard]] bool has_zones() const { return !parts.empty() || !has_rectangles(); }
 
   void add(const PolynomialZone& zone) {
-    for (const double value : {zone.field_low, zone.field_high, zone.centre_mm, zone.centre_slope_mm, zone.radius_mm})
+    const double per_end = zone.pupil_end > 0.0 ? 1.0 / (zone.pupil_end * zone.pupil_end) : 0.0;
+    for (const double value :
+         {zone.field_low, zone.field_high, zone.centre_mm, zone.centre_slope_mm, zone.radius_mm, per_end})
       zones.push_back(value);
     for (const std::size_t value :
          {polynomials.sums.size() / 3, zone.stop.size(), zone.rims.size(), fields.size() / 4, zone.bounds.size()})
@@ -132,7 +134,8 @@ Result<std::string> export_polynomials(const LensPolynomials& polynomials, const
   replace_all(text, "@SHORTEST", inverse_square_text(polynomials.shortest_nm));
   replace_all(text, "@LONGEST", inverse_square_text(polynomials.longest_nm));
   replace_all(text, "@", prefix);
-  return header_text(polynomials, ghosts, tables, language) + "\n" + text;
+  const bool takes_roots = tables.has_zones() && language == PolynomialLanguage::C;
+  return header_text(polynomials, ghosts, tables, language) + (takes_roots ? "\n#include <math.h>\n\n" : "\n") + text;
 }
 
 }  // namespace contrejour

@@ -12,6 +12,7 @@ namespace contrejour::inline internal::polynomial {
 namespace {
 
 constexpr int kRaysAtField = 96;
+constexpr double kPastLight = 1.02;  // the end of a zone's pupil, over the largest |p| of rays for the sensor
 // Relative heights beyond which rays are left out, and how steeply rays that are blocked count less before. Next to the
 // light, a ghost's rays often are close to total reflection or to missing a surface, where its map has a branch point:
 // a polynomial that follows these rays spends its degrees there. Positions on the sensor and transmittances matter only
@@ -63,7 +64,7 @@ void weigh_rays(FitRays& rays, double near_mm) {
   }
 }
 
-FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zones) {
+FitRays fit_rays(const ZoneProblem& problem, std::span<PolynomialZone> zones) {
   FitRays out;
   for (std::size_t n = 0; n < zones.size(); ++n) {
     NodeRays& node = out.nodes.emplace_back();
@@ -72,9 +73,18 @@ FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zon
       node.tables.push_back(
           problem.nodes[n].rays->trace(node.starts, wavelength_at(problem.lens, node_coordinate(k, kWavelengths))));
   }
-  for (const RayStart& start : out.nodes.front().starts)
-    out.points.push_back(zone_point(zones.front(), start.field, start.entrance_mm));
   weigh_rays(out, kNearSensor * length(problem.sensor_half_mm));
+  const auto point_of = [&](std::size_t ray) {
+    const RayStart& start = out.nodes.front().starts[ray];
+    return zone_point(zones.front(), start.field, start.entrance_mm);
+  };
+  double farthest = 0.0;
+  for (const std::size_t ray : out.for_sensor.used) farthest = std::max(farthest, length(point_of(ray).p));
+  for (PolynomialZone& zone : zones) zone.pupil_end = kPastLight * farthest;
+  for (std::size_t ray = 0; ray < out.nodes.front().starts.size(); ++ray) {
+    out.points.push_back(point_of(ray));
+    out.light_points.push_back(out.points.back().of_light());
+  }
   return out;
 }
 

@@ -40,12 +40,12 @@ struct NodeRays {
 // The rays of a fit: the same points of the zone at all nodes.
 struct FitRays {
   std::vector<NodeRays> nodes;
-  std::vector<ZonePoint> points;
+  std::vector<ZonePoint> points, light_points;  // of edges; of positions on the sensor and transmittances
   WeightedRays for_sensor, for_light, for_edges;  // positions on the sensor; transmittances; the stop and rims
 };
 
-// zones: with their bounds and pupil coordinates, one a node.
-[[nodiscard]] FitRays fit_rays(const ZoneProblem& problem, std::span<const PolynomialZone> zones);
+// zones: with their bounds and pupil coordinates, one a node. Sets the end of their pupils.
+[[nodiscard]] FitRays fit_rays(const ZoneProblem& problem, std::span<PolynomialZone> zones);
 
 // Sets the weights of all rays from the nodes. near_mm: rays that land farther from the sensor's middle count less.
 void weigh_rays(FitRays& rays, double near_mm);

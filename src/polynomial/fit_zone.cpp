@@ -90,7 +90,8 @@ class ZoneFit {
  public:
   ZoneFit(const ZoneProblem& problem, const FitRays& rays, const Checks& checks, std::vector<PolynomialZone>& zones)
       : problem_(problem), options_(problem.options), rays_(rays), checks_(checks), zones_(zones),
-        sensor_(rays, rays.for_sensor), light_(rays, rays.for_light), edges_(rays, rays.for_edges) {}
+        sensor_(rays, rays.for_sensor, rays.light_points), light_(rays, rays.for_light, rays.light_points),
+        edges_(rays, rays.for_edges, rays.points) {}
 
   // Returns whether all outputs are accurate enough.
   bool run() {
@@ -109,13 +110,13 @@ class ZoneFit {
     const double pixel_mm = problem_.lens.pixel_mm, target_mm = options_.target_px * pixel_mm;
     const auto errors = [](const ZoneCheck& check, const ChebyshevVector& v) { return check.position_errors_mm(v); };
     NodeVectors sensor(zones_.size());
+    OutputFit fit(sensor_.vectors(), kWavelengthStep,
+                  {[](const RayTable& t, std::size_t k) { return t.sensor_x_mm[k]; },
+                   [](const RayTable& t, std::size_t k) { return t.sensor_y_mm[k]; }},
+                  kNegligible * target_mm);
     raise_degree(
         sensor_, max_degree_, {target_mm, options_.position_px * pixel_mm}, sensor,
-        [&](int degree) {
-          return fitted_vectors(
-              sensor_, degree, [](const RayTable& t, std::size_t k) { return t.sensor_x_mm[k]; },
-              [](const RayTable& t, std::size_t k) { return t.sensor_y_mm[k]; }, kNegligible * target_mm);
-        },
+        [&](int degree) { return fit.vectors(degree); },
         [&](const NodeVectors& tried) { return checks_.worst(tried, 0.95, errors); });
     accuracy_.position_p50_px = checks_.worst(sensor, 0.5, errors) / pixel_mm;
     accuracy_.position_p95_px = checks_.worst(sensor, 0.95, errors) / pixel_mm;
@@ -133,9 +134,9 @@ class ZoneFit {
       return [crossing, of](const RayTable& t, std::size_t k) { return t.stop[crossing][of][k]; };
     };
     NodeVectors stop(zones_.size());
+    OutputFit fit(edges_.vectors(), kWavelengthStep, {axis(0), axis(1)}, kNegligible * edge_target_);
     const double p95 = raise_degree(
-        edges_, max_degree_, {edge_target_, options_.edge}, stop,
-        [&](int degree) { return fitted_vectors(edges_, degree, axis(0), axis(1), kNegligible * edge_target_); },
+        edges_, max_degree_, {edge_target_, options_.edge}, stop, [&](int degree) { return fit.vectors(degree); },
         [&](const NodeVectors& tried) {
           return checks_.worst(tried, 0.95, [crossing](const ZoneCheck& check, const ChebyshevVector& v) {
             return check.stop_errors(v, crossing);
@@ -157,14 +158,12 @@ class ZoneFit {
 
   void fit_rim(int step) {
     NodeSums squared(zones_.size());
+    const auto value = [step](const RayTable& t, std::size_t k) {
+      return t.rim_squared[static_cast<std::size_t>(step)][k];
+    };
+    OutputFit fit(edges_.scalars(), kWavelengthStep, {value}, kNegligible * edge_target_);
     const double p95 = raise_degree(
-        edges_, max_degree_, {edge_target_, options_.edge}, squared,
-        [&](int degree) {
-          const auto value = [step](const RayTable& t, std::size_t k) {
-            return t.rim_squared[static_cast<std::size_t>(step)][k];
-          };
-          return fitted_sums(edges_, degree, kWavelengthStep, value, kNegligible * edge_target_);
-        },
+        edges_, max_degree_, {edge_target_, options_.edge}, squared, [&](int degree) { return fit.sums(degree); },
         [&](const NodeSums& tried) {
           return checks_.worst(tried, 0.95, [step](const ZoneCheck& check, const ChebyshevSum& sum) {
             return check.rim_errors(sum, step);
@@ -180,12 +179,11 @@ class ZoneFit {
       largest = std::max<double>(largest, *std::ranges::max_element(node.middle().transmission));
     const double target = kFractionOfTransmittance * options_.transmittance;
     NodeSums transmittance(zones_.size());
+    OutputFit fit(light_.scalars(), 1, {[](const RayTable& t, std::size_t k) { return t.transmission[k]; }},
+                  kNegligible * target * largest);
     accuracy_.transmittance_p95 = raise_degree(
         light_, max_degree_, {target, options_.transmittance}, transmittance,
-        [&](int degree) {
-          const auto value = [](const RayTable& t, std::size_t k) { return t.transmission[k]; };
-          return fitted_sums(light_, degree, 1, value, kNegligible * target * largest);
-        },
+        [&](int degree) { return fit.sums(degree); },
         [&](const NodeSums& tried) {
           return checks_.worst(tried, 0.95, [](const ZoneCheck& check, const ChebyshevSum& sum) {
             return check.transmittance_errors(sum);

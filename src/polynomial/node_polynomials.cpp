@@ -2,8 +2,10 @@
 #include "polynomial/node_polynomials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace contrejour::inline internal::polynomial {
 namespace {
@@ -21,6 +23,27 @@ std::vector<double> coefficients_of(std::span<const double> values) {
     out[static_cast<std::size_t>(l)] = (l == 0 || l == last ? 1.0 : 2.0) / last * sum;
   }
   return out;
+}
+
+// Terms whose degrees sum to one number, in the order in which for_each_term() visits them.
+std::size_t terms_of_degree(int degree) {
+  return static_cast<std::size_t>(term_count(degree) - term_count(degree - 1));
+}
+template <class Visit>
+void for_each_of_degree(int degree, const Visit& visit) {
+  for (int v = 0; v <= degree; ++v)
+    for (int w = 0; w <= degree - v; ++w) visit(v, w, degree - v - w);
+}
+
+// The right-hand sides of all nodes and wavelengths.
+GrowingLeastSquares::Right right_of(const GrowingSystem& system, int step, const std::vector<ValueOf>& coordinates) {
+  std::vector<GrowingSystem::RightValue> values;
+  for (const NodeRays& node : system.rays().nodes)
+    for (std::size_t l = 0; l < node.tables.size(); l += static_cast<std::size_t>(step))
+      values.emplace_back([&coordinates, &table = node.tables[l]](std::size_t ray, std::size_t coordinate) {
+        return coordinates[coordinate](table, ray);
+      });
+  return system.right(values);
 }
 
 }  // namespace
@@ -52,16 +75,6 @@ ChebyshevSum assembled(int degree, std::size_t count, std::span<const std::vecto
   return sum;
 }
 
-bool Systems::has_enough_rays(int degree) const {
-  return static_cast<double>(weighted_.used.size()) >= kSamplesPerUnknown * term_count(degree);
-}
-
-const LeastSquares& Systems::made(Made& all, int degree, bool of_vectors) {
-  auto& one = all[static_cast<std::size_t>(degree)];
-  if (!one) one.emplace(matrix(degree, of_vectors), kRidge);
-  return *one;
-}
-
 Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> points, std::span<const double> weights) {
   const auto count = static_cast<std::size_t>(term_count(degree));
   Rows rows;
@@ -84,48 +97,102 @@ Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> point
   return rows;
 }
 
-Rows Systems::matrix(int degree, bool of_vectors) const {
-  std::vector<ZonePoint> points;
-  for (const std::size_t ray : weighted_.used) points.push_back(rays_.points[ray]);
-  return weighted_rows(degree, of_vectors, points, weighted_.weight);
+GrowingSystem::GrowingSystem(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points,
+                             bool of_vectors)
+    : rays_(rays), weighted_(weighted), points_(points), coordinates_(of_vectors ? 2 : 1),
+      squares_(coordinates_ * weighted.used.size(), kRidge) {}
+
+// Adds the terms whose degrees sum to one more than before.
+void GrowingSystem::grow() {
+  ++degree_;
+  const std::size_t padded = squares_.padded_rows(), terms = terms_of_degree(degree_);
+  std::vector<double> columns(coordinates_ * terms * padded, 0.0);
+  std::array<double, kMaxDegree + 1> u{}, v{}, w{};
+  for (std::size_t k = 0; k < weighted_.used.size(); ++k) {
+    const ZonePoint& point = points_[weighted_.used[k]];
+    chebyshev_values(point.u, u);
+    chebyshev_values(point.v, v);
+    chebyshev_values(point.w, w);
+    std::size_t term = 0;
+    for_each_of_degree(degree_, [&](int kv, int kw, int ku) {
+      const double value = weighted_.weight[k] * v[static_cast<std::size_t>(kv)] * w[static_cast<std::size_t>(kw)] *
+                           u[static_cast<std::size_t>(ku)];
+      double* const at = columns.data() + term * padded + coordinates_ * k;
+      if (coordinates_ == 1) {
+        *at = value;
+      } else {
+        *at = point.h * value;
+        double* const along_pupil = at + terms * padded;
+        along_pupil[0] = point.p.x * value;
+        along_pupil[1] = point.p.y * value;
+      }
+      ++term;
+    });
+  }
+  squares_.add(std::move(columns));
 }
 
-NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& value, double negligible) {
-  const auto& [used, weight] = systems.weighted();
-  const LeastSquares& system = systems.scalars(degree);
+std::vector<std::vector<double>> GrowingSystem::solve(int degree, GrowingLeastSquares::Right& right) {
+  while (degree_ < degree) grow();
   const auto count = static_cast<std::size_t>(term_count(degree));
-  NodeSums sums;
-  std::vector<double> right(used.size());
-  for (const NodeRays& node : systems.rays().nodes) {
-    std::vector<std::vector<double>> solutions;
-    for (std::size_t l = 0; l < node.tables.size(); l += static_cast<std::size_t>(step)) {
-      for (std::size_t k = 0; k < right.size(); ++k) right[k] = weight[k] * value(node.tables[l], used[k]);
-      solutions.push_back(system.solve(right));
-    }
-    sums.push_back(assembled(degree, count, solutions, 0, negligible));
+  std::vector<std::vector<double>> solutions = squares_.solve(right, coordinates_ * count);
+  for (std::vector<double>& solution : solutions) {
+    std::vector<double> ordered(solution.size());
+    std::array<std::size_t, kMaxDegree + 1> seen{};  // by the sum of the degrees
+    std::size_t at = 0;
+    for_each_term(degree, [&](int v, int w, int u) {
+      const int sum = v + w + u;
+      const std::size_t from =
+          coordinates_ * static_cast<std::size_t>(term_count(sum - 1)) + seen[static_cast<std::size_t>(sum)]++;
+      ordered[at] = solution[from];
+      if (coordinates_ == 2) ordered[count + at] = solution[from + terms_of_degree(sum)];
+      ++at;
+    });
+    solution = std::move(ordered);
   }
+  return solutions;
+}
+
+GrowingLeastSquares::Right GrowingSystem::right(std::span<const RightValue> values) const {
+  const std::size_t padded = squares_.padded_rows();
+  std::vector<double> columns(values.size() * padded, 0.0);
+  for (std::size_t column = 0; column < values.size(); ++column)
+    for (std::size_t k = 0; k < weighted_.used.size(); ++k)
+      for (std::size_t c = 0; c < coordinates_; ++c)
+        columns[column * padded + coordinates_ * k + c] = weighted_.weight[k] * values[column](weighted_.used[k], c);
+  return GrowingLeastSquares::Right(std::move(columns));
+}
+
+bool Systems::has_enough_rays(int degree) const {
+  return static_cast<double>(weighted_.used.size()) >= kSamplesPerUnknown * term_count(degree);
+}
+
+OutputFit::OutputFit(GrowingSystem& system, int step, const std::vector<ValueOf>& coordinates, double negligible)
+    : system_(system), negligible_(negligible), right_(right_of(system, step, coordinates)) {}
+
+NodeSums OutputFit::sums(int degree) {
+  NodeSums sums;
+  for_each_node(degree, [&](std::span<const std::vector<double>> solutions, std::size_t count) {
+    sums.push_back(assembled(degree, count, solutions, 0, negligible_));
+  });
   return sums;
 }
 
-NodeVectors fitted_vectors(Systems& systems, int degree, const ValueOf& x, const ValueOf& y, double negligible) {
-  const auto& [used, weight] = systems.weighted();
-  const LeastSquares& system = systems.vectors(degree);
-  const auto count = static_cast<std::size_t>(term_count(degree));
+NodeVectors OutputFit::vectors(int degree) {
   NodeVectors vectors;
-  std::vector<double> right(2 * used.size());
-  for (const NodeRays& node : systems.rays().nodes) {
-    std::vector<std::vector<double>> solutions;
-    for (std::size_t l = 0; l < node.tables.size(); l += kWavelengthStep) {
-      for (std::size_t k = 0; k < used.size(); ++k) {
-        right[2 * k] = weight[k] * x(node.tables[l], used[k]);
-        right[2 * k + 1] = weight[k] * y(node.tables[l], used[k]);
-      }
-      solutions.push_back(system.solve(right));
-    }
+  for_each_node(degree, [&](std::span<const std::vector<double>> solutions, std::size_t count) {
     vectors.push_back(
-        {assembled(degree, count, solutions, 0, negligible), assembled(degree, count, solutions, count, negligible)});
-  }
+        {assembled(degree, count, solutions, 0, negligible_), assembled(degree, count, solutions, count, negligible_)});
+  });
   return vectors;
+}
+
+template <class Add>
+void OutputFit::for_each_node(int degree, const Add& add) {
+  const std::vector<std::vector<double>> solutions = system_.solve(degree, right_);
+  const std::size_t nodes = system_.rays().nodes.size(), wavelengths = solutions.size() / nodes;
+  for (std::size_t n = 0; n < nodes; ++n)
+    add(std::span(solutions).subspan(n * wavelengths, wavelengths), static_cast<std::size_t>(term_count(degree)));
 }
 
 }  // namespace contrejour::inline internal::polynomial

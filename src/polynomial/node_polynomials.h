@@ -2,9 +2,8 @@
 // Least squares of a zone's outputs: one polynomial for each node, all by the same rows.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,37 +29,70 @@ inline constexpr double kRidge = 1e-7;
 [[nodiscard]] Rows weighted_rows(int degree, bool of_vectors, std::span<const ZonePoint> points,
                                  std::span<const double> weights);
 
-// The systems of a zone's rays: for scalars, or for both coordinates of vectors.
-class Systems {
+// The least squares of a zone's rays for scalars, or for both coordinates of vectors, whose degree grows as it is
+// asked for. Unknowns are ordered by degree, those of A before those of B.
+class GrowingSystem {
  public:
-  Systems(const FitRays& rays, const WeightedRays& weighted) : rays_(rays), weighted_(weighted) {}
+  // points: of all rays. All must outlive it.
+  GrowingSystem(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points, bool of_vectors);
 
-  [[nodiscard]] bool has_enough_rays(int degree) const;
-  [[nodiscard]] const LeastSquares& scalars(int degree) { return made(scalars_, degree, false); }
-  [[nodiscard]] const LeastSquares& vectors(int degree) { return made(vectors_, degree, true); }
+  // The coefficients for right-hand sides, in the order of ChebyshevSum; for vectors those of A, then those of B.
+  [[nodiscard]] std::vector<std::vector<double>> solve(int degree, GrowingLeastSquares::Right& right);
+  // value(ray, coordinate) for each right-hand side.
+  using RightValue = std::function<double(std::size_t ray, std::size_t coordinate)>;
+  [[nodiscard]] GrowingLeastSquares::Right right(std::span<const RightValue> values) const;
   [[nodiscard]] const FitRays& rays() const { return rays_; }
-  [[nodiscard]] const WeightedRays& weighted() const { return weighted_; }
 
  private:
-  using Made = std::array<std::optional<LeastSquares>, kMaxDegree + 1>;
-
-  const LeastSquares& made(Made& all, int degree, bool of_vectors);
-  [[nodiscard]] Rows matrix(int degree, bool of_vectors) const;
+  void grow();
 
   const FitRays& rays_;
   const WeightedRays& weighted_;
-  Made scalars_, vectors_;
+  std::span<const ZonePoint> points_;
+  std::size_t coordinates_;
+  GrowingLeastSquares squares_;
+  int degree_ = -1;
 };
 
+// The systems of some of a zone's rays.
+class Systems {
+ public:
+  Systems(const FitRays& rays, const WeightedRays& weighted, std::span<const ZonePoint> points)
+      : weighted_(weighted), scalars_(rays, weighted, points, false), vectors_(rays, weighted, points, true) {}
+
+  [[nodiscard]] bool has_enough_rays(int degree) const;
+  [[nodiscard]] GrowingSystem& scalars() { return scalars_; }
+  [[nodiscard]] GrowingSystem& vectors() { return vectors_; }
+
+ private:
+  const WeightedRays& weighted_;
+  GrowingSystem scalars_, vectors_;
+};
+
+// An output of a ray, or one coordinate of it.
 using ValueOf = std::function<double(const RayTable& table, std::size_t ray)>;
 
 // A polynomial for each node.
 using NodeSums = std::vector<ChebyshevSum>;
 using NodeVectors = std::vector<ChebyshevVector>;
 
-// step: of the wavelengths. negligible: changes of values by which last wavelength terms are left out.
-[[nodiscard]] NodeSums fitted_sums(Systems& systems, int degree, int step, const ValueOf& value, double negligible);
-[[nodiscard]] NodeVectors fitted_vectors(Systems& systems, int degree, const ValueOf& x, const ValueOf& y,
-                                         double negligible);
+// Polynomials of one output, of any degree. A degree that is above those asked for before takes only what is new.
+class OutputFit {
+ public:
+  // step: of the wavelengths. coordinates: one of a scalar, two of a vector. negligible: changes of values by which
+  // last wavelength terms are left out.
+  OutputFit(GrowingSystem& system, int step, const std::vector<ValueOf>& coordinates, double negligible);
+
+  [[nodiscard]] NodeSums sums(int degree);
+  [[nodiscard]] NodeVectors vectors(int degree);
+
+ private:
+  template <class Add>
+  void for_each_node(int degree, const Add& add);
+
+  GrowingSystem& system_;
+  double negligible_;
+  GrowingLeastSquares::Right right_;
+};
 
 }  // namespace contrejour::inline internal::polynomial

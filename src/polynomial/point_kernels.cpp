@@ -114,6 +114,14 @@ CONTREJOUR_INLINE_IF_FAST Points value_of(const PowerSum& sum, const Points& v, 
 }
 static_assert(kMaxDegree == 8);
 
+// 1 - 2 sqrt(1 - squared per_end), 1 beyond the end.
+template <class Points>
+HWY_INLINE Points to_pupil_end(const Points& squared, float per_end) {
+  const Points left = max(mul_add(squared, Points::all(-per_end), Points::all(1.0F)), Points::all(0.0F));
+  const Points root = left.with(left, left, [](Vec p, Vec, Vec) HWY_ATTR { return hn::Sqrt(p); });
+  return mul_add(root, Points::all(-2.0F), Points::all(1.0F));
+}
+
 // Writes `count` of the points, which are all of them but for the last vector.
 template <class Points>
 HWY_INLINE void store(const Points& values, float* to, std::size_t count) {
@@ -138,17 +146,22 @@ CONTREJOUR_INLINE_IF_FAST void evaluate_from(const PupilMap& map, const Points& 
   const Points px = mul_add(x_mm, per_mm, Points::all(map.x));
   const Points py = mul_add(y_mm, map.symmetric ? per_mm : Points::all(map.y_per_mm), Points::all(map.y));
   const Points v = map.symmetric ? mul(h, px) : px;
-  const Points w = map.symmetric ? mul_add(mul_add(px, px, mul(py, py)), Points::all(2.0F), Points::all(-1.0F)) : py;
+  const Points squared = mul_add(px, px, mul(py, py));
+  const Points w = map.symmetric ? mul_add(squared, Points::all(2.0F), Points::all(-1.0F)) : py;
+  const Points w_of_light = map.per_end > 0.0F ? to_pupil_end(squared, map.per_end) : w;
   Points highest = Points::all(0.0F);
   const Points scale = Points::all(out.stop_scale * out.stop_scale);
   for (std::size_t k = 0; k < out.vectors.size(); ++k) {
     const VectorOutput& vector = out.vectors[k];
-    const Points along_pupil = value_of(*vector.along_pupil, v, w), along_field = value_of(*vector.along_field, v, w);
+    const bool is_stop = k + out.crossings >= out.vectors.size();
+    const Points& here = is_stop ? w : w_of_light;
+    const Points along_pupil = value_of(*vector.along_pupil, v, here);
+    const Points along_field = value_of(*vector.along_field, v, here);
     const Points x = map.symmetric ? mul_add(px, along_pupil, mul(h, along_field)) : along_field;
     const Points y = map.symmetric ? mul(py, along_pupil) : along_pupil;
     store(x, vector.x + at, count);
     store(y, vector.y + at, count);
-    if (k + out.crossings >= out.vectors.size()) highest = max(highest, mul(scale, mul_add(x, x, mul(y, y))));
+    if (is_stop) highest = max(highest, mul(scale, mul_add(x, x, mul(y, y))));
   }
   for (const ScalarOutput& rim : out.rims) {
     const Points height = value_of(*rim.sum, v, w);
@@ -160,7 +173,7 @@ CONTREJOUR_INLINE_IF_FAST void evaluate_from(const PupilMap& map, const Points& 
           out.relative_height + at, count);
   if (out.transmittance.values == nullptr) return;
   const Points limit = Points::all(out.largest_transmittance);
-  const Points light = max(value_of(*out.transmittance.sum, v, w), Points::all(0.0F));
+  const Points light = max(value_of(*out.transmittance.sum, v, w_of_light), Points::all(0.0F));
   store(light.with(limit, limit, [](Vec p, Vec q, Vec) HWY_ATTR { return hn::Min(p, q); }),
         out.transmittance.values + at, count);
 }

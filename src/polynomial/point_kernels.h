@@ -29,6 +29,8 @@ struct PupilMap {
   float h = 0.0F;
   bool symmetric = true;
   float y_per_mm = 1.0F;  // without symmetry: along y
+  // With symmetry: for the sensor's vector and the transmittance w is 1 - 2 sqrt(1 - p.p per_end); 0: it is as for all.
+  float per_end = 0.0F;
 };
 
 // h along_field + p along_pupil, written to x and y. Without symmetry along_field is x and along_pupil y.

@@ -129,9 +129,9 @@ bool have_one_shape(const ChebyshevVector& a, const ChebyshevVector& b) {
 
 // Zones between which polynomials are interpolated.
 bool have_one_shape(const PolynomialZone& a, const PolynomialZone& b) {
-  if (a.state != b.state || a.bounds.size() != b.bounds.size() || a.stop.size() != b.stop.size() ||
-      a.rims.size() != b.rims.size() || a.transmittance.degree != b.transmittance.degree ||
-      !have_one_shape(a.sensor_mm, b.sensor_mm))
+  if (a.state != b.state || a.pupil_end != b.pupil_end || a.bounds.size() != b.bounds.size() ||
+      a.stop.size() != b.stop.size() || a.rims.size() != b.rims.size() ||
+      a.transmittance.degree != b.transmittance.degree || !have_one_shape(a.sensor_mm, b.sensor_mm))
     return false;
   for (std::size_t c = 0; c < a.stop.size(); ++c)
     if (!have_one_shape(a.stop[c], b.stop[c])) return false;

@@ -79,11 +79,12 @@ std::vector<PolynomialBounds> read_bounds(PolyReader& read, const CborNode* node
 
 void read_polynomials_of(PolyReader& read, const CborNode& node, PolynomialZone& zone) {
   zone.order = read.whole(node.find("order"), "an order", 1, 2 * kMaxDegree + 1);
-  const auto pupil = read.list(node.find("pupil"), "the pupil coordinates", 3, 3);
+  const auto pupil = read.list(node.find("pupil"), "the pupil coordinates", 3, 4);
   if (read.failed()) return;
   zone.centre_mm = read.number(&pupil[0], "the pupil's centre", -1e6, 1e6);
   zone.centre_slope_mm = read.number(&pupil[1], "the pupil's centre", -1e6, 1e6);
   zone.radius_mm = read.number(&pupil[2], "the pupil's radius", 1e-9, 1e6);
+  if (pupil.size() > 3) zone.pupil_end = read.number(&pupil[3], "the pupil's end", 1e-6, 1e6);
   zone.bounds = read_bounds(read, node.find("bounds"), zone);
   zone.sensor_mm = read_vector(read, node.find("sensor"));
   for (const CborNode& crossing : read.list(node.find("stop"), "the stop", 0, kMaxStopCrossings)) {
@@ -190,8 +191,10 @@ CborNode zone_node(const PolynomialZone& zone) {
   node.add("accuracy", accuracy_node(zone.accuracy));
   if (zone.state != PolynomialZone::State::Fitted) return node;
   node.add("order", cbor_number(zone.order));
-  node.add("pupil",
-           cbor_list({cbor_number(zone.centre_mm), cbor_number(zone.centre_slope_mm), cbor_number(zone.radius_mm)}));
+  CborNode pupil =
+      cbor_list({cbor_number(zone.centre_mm), cbor_number(zone.centre_slope_mm), cbor_number(zone.radius_mm)});
+  if (zone.pupil_end > 0.0) pupil.list.push_back(cbor_number(zone.pupil_end));
+  node.add("pupil", std::move(pupil));
   node.add("bounds", node_of(zone.bounds));
   node.add("sensor", node_of(zone.sensor_mm));
   CborNode stop = cbor_list();

@@ -20,41 +20,49 @@ LeftOutRays left_out_of(const LensPolynomials& lens, const GhostRays& rays, cons
   return {lens, rays, std::move(starts), std::move(blocked), sensor_half_mm};
 }
 
+double value_at(const ChebyshevSum& sum, const ZonePoint& point, const LeftOutRay& sample) {
+  return value_of(sum, point, kTestedWavelengths[sample.wavelength]);
+}
+
+Vec2 vector_at(const ChebyshevVector& vector, const ZonePoint& point, const LeftOutRay& sample) {
+  return Vec2{point.h * value_at(vector.along_field, point, sample), 0.0} +
+         point.p * value_at(vector.along_pupil, point, sample);
+}
+
 }  // namespace
 
 ZoneCheck::ZoneCheck(const LensPolynomials& lens, const GhostRays& rays, const PolynomialZone& zone,
                      Vec2 sensor_half_mm)
     : rays_(left_out_of(lens, rays, zone, sensor_half_mm)) {
-  for (const RayStart& start : rays_.starts()) points_.push_back(zone_point(zone, start.field, start.entrance_mm));
-}
-
-double ZoneCheck::value(const ChebyshevSum& sum, const LeftOutRay& sample) const {
-  return value_of(sum, points_[sample.ray], kTestedWavelengths[sample.wavelength]);
-}
-
-Vec2 ZoneCheck::value(const ChebyshevVector& vector, const LeftOutRay& sample) const {
-  const ZonePoint& point = points_[sample.ray];
-  return Vec2{point.h * value(vector.along_field, sample), 0.0} + point.p * value(vector.along_pupil, sample);
+  for (const RayStart& start : rays_.starts()) {
+    points_.push_back(zone_point(zone, start.field, start.entrance_mm));
+    light_points_.push_back(points_.back().of_light());
+  }
 }
 
 std::vector<double> ZoneCheck::position_errors_mm(const ChebyshevVector& sensor) const {
-  return rays_.position_errors_mm([&](const LeftOutRay& sample) { return value(sensor, sample); });
+  return rays_.position_errors_mm(
+      [&](const LeftOutRay& sample) { return vector_at(sensor, light_points_[sample.ray], sample); });
 }
 
 std::vector<double> ZoneCheck::stop_errors(const ChebyshevVector& stop, std::size_t crossing) const {
-  return rays_.stop_errors([&](const LeftOutRay& sample) { return value(stop, sample); }, crossing);
+  return rays_.stop_errors([&](const LeftOutRay& sample) { return vector_at(stop, points_[sample.ray], sample); },
+                           crossing);
 }
 
 std::vector<double> ZoneCheck::rim_errors(const ChebyshevSum& squared, int step) const {
-  return rays_.rim_errors([&](const LeftOutRay& sample) { return value(squared, sample); }, step);
+  return rays_.rim_errors([&](const LeftOutRay& sample) { return value_at(squared, points_[sample.ray], sample); },
+                          step);
 }
 
 std::vector<double> ZoneCheck::transmittance_errors(const ChebyshevSum& transmittance) const {
-  return rays_.transmittance_errors([&](const LeftOutRay& sample) { return value(transmittance, sample); });
+  return rays_.transmittance_errors(
+      [&](const LeftOutRay& sample) { return value_at(transmittance, light_points_[sample.ray], sample); });
 }
 
 bool ZoneCheck::brings_light_in(const ChebyshevVector& sensor) const {
-  return rays_.brings_light_in([&](const LeftOutRay& sample) { return value(sensor, sample); });
+  return rays_.brings_light_in(
+      [&](const LeftOutRay& sample) { return vector_at(sensor, light_points_[sample.ray], sample); });
 }
 
 bool ZoneCheck::admits_blocked_light(const LensPolynomials& lens, const PolynomialZone& zone) const {

@@ -28,11 +28,8 @@ class ZoneCheck {
   [[nodiscard]] int rays() const { return rays_.open_rays(); }
 
  private:
-  [[nodiscard]] Vec2 value(const ChebyshevVector& vector, const LeftOutRay& sample) const;
-  [[nodiscard]] double value(const ChebyshevSum& sum, const LeftOutRay& sample) const;
-
   LeftOutRays rays_;
-  std::vector<ZonePoint> points_;
+  std::vector<ZonePoint> points_, light_points_;
 };
 
 }  // namespace contrejour::inline internal::polynomial

@@ -202,6 +202,7 @@ PolynomialZone zone_frame(std::span<const PolynomialZone> nodes, std::span<const
   zone.order = first.order;
   zone.accuracy = first.accuracy;
   if (nodes.size() == 1) zone.bounds = first.bounds;
+  zone.pupil_end = first.pupil_end;
   for (double PolynomialZone::* const value :
        {&PolynomialZone::field_low, &PolynomialZone::field_high, &PolynomialZone::centre_mm,
         &PolynomialZone::centre_slope_mm, &PolynomialZone::radius_mm, &PolynomialZone::flux_mm2})

@@ -204,7 +204,7 @@ void check_c(const Exported& exported) {
   const std::string source = (folder / "ghosts.c").string(), program = (folder / "ghosts").string(),
                     out = (folder / "out").string();
   std::ofstream(source) << exported.code(PolynomialLanguage::C) << main << "  return 0;\n}\n";
-  REQUIRE(runs(fmt::format("cc -std=c99 -Wall -Wextra -Werror -O0 {} -o {}", source, program)));
+  REQUIRE(runs(fmt::format("cc -std=c99 -Wall -Wextra -Werror -O0 {} -o {} -lm", source, program)));
   REQUIRE(std::system(fmt::format("{} > {}", program, out).c_str()) == 0);
   check_printed(exported, out);
 }

@@ -33,7 +33,7 @@ struct PolynomialOptions {
   double edge = 1e-3;
   double transmittance = 2e-3;
   // Orders rise from 5 in steps of 2 until 95 per cent of errors are below this, or the largest order is reached.
-  double target_px = 0.01;
+  double target_px = 0.007;
   int max_order = 17;  // 5, 7, 9, 11, 13, 15 or 17
   int max_halvings = 3;  // of the field, where a ghost fails; 0 to 4
   GhostScope scope = GhostScope::All;
@@ -88,6 +88,9 @@ struct PolynomialZone {
   int order = 0;  // of the sensor's position in the field and pupil coordinates
   // p = (e - (centre + centre_slope u) field) / radius for the point e of the entrance plane, along x.
   double centre_mm = 0.0, centre_slope_mm = 0.0, radius_mm = 1.0;
+  // Above 0: positions on the sensor and transmittances are polynomials in s = 1 - 2 sqrt(1 - p.p / pupil_end^2), 1
+  // beyond |p| = pupil_end, in place of w = 2 p.p - 1.
+  double pupil_end = 0.0;
   std::vector<PolynomialBounds> bounds;  // by rising field
   ChebyshevVector sensor_mm;
   std::vector<ChebyshevVector> stop;  // by crossing, over LensPolynomials::stop_radius_mm
