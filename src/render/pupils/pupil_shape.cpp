@@ -20,6 +20,9 @@ constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
+// The last grid's area over that of the box that a search finds, below which it missed the pupil. Else the grids are
+// kept, because the search's box changes by whole cells from one light to the next.
+constexpr double kMissed = 0.1;
 constexpr int kMinGrids = 2, kMaxGrids = 4;
 constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
 constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
@@ -145,6 +148,24 @@ std::optional<Rectangle> searched_box(const LensSteps& steps, const Ghost& ghost
   return hull;
 }
 
+// The rays that get through, of the first grid and of the last one.
+struct Traced {
+  int first_open = 0, open = 0;
+};
+
+// Grids over this box, then each over the open part of the one before.
+Traced trace_grids(HalvedGrid& grid, std::optional<Rectangle> box) {
+  Traced traced;
+  for (int k = 0; k < kMaxGrids && box && (k < kMinGrids || traced.open < kEnough); ++k) {
+    grid.trace(*box);
+    traced.open = 0;
+    for (std::size_t ray = 0; ray < kRays; ++ray) traced.open += grid.is_open(ray) ? 1 : 0;
+    if (k == 0) traced.first_open = traced.open;
+    box = next_box(grid);
+  }
+  return traced;
+}
+
 // Collects the open parts of a grid's triangles by blocks of cells.
 class PupilSum {
  public:
@@ -247,17 +268,13 @@ PupilShape in_lens_frame(PupilShape pupil, const LightFrame& light) {
 std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& ghost, const LightFrame& light,
                                            const EntranceWindow& window) {
   HalvedGrid grid(steps, ghost, light, window);
-  std::optional<Rectangle> box = grid.box();
-  int open = 0;
-  for (int k = 0; k < kMaxGrids && box && (k < kMinGrids || open < kEnough); ++k) {
-    grid.trace(*box);
-    open = 0;
-    for (std::size_t ray = 0; ray < kRays; ++ray) open += grid.is_open(ray) ? 1 : 0;
-    box = next_box(grid);
-    if (k > 0 || open >= kFew) continue;
-    if (const auto searched = searched_box(steps, ghost, light, window)) box = searched;
+  Traced traced = trace_grids(grid, grid.box());
+  if (traced.first_open < kFew) {
+    const auto searched = searched_box(steps, ghost, light, window);
+    if (searched && (traced.open == 0 || area_of(grid.box()) < kMissed * area_of(*searched)))
+      traced = trace_grids(grid, *searched);
   }
-  if (open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
+  if (traced.open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
   std::size_t least_blocked = 0;
   for (std::size_t k = 0; k < kRays; ++k)
     if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
