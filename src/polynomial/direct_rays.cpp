@@ -58,7 +58,7 @@ std::optional<Vec2> CameraRays::stop_point(Vec2 sensor_mm, Vec2 inner) const {
 }
 
 std::optional<Vec2> CameraRays::aimed(Vec2 sensor_mm, Vec2 stop, Vec2 start) const {
-  constexpr int kMaxSteps = 30, kMaxHalvings = 8;
+  constexpr int kMaxSteps = 30, kMaxStepHalvings = 8;
   constexpr double kConverged = 1e-10, kDifference = 1e-6;  // stop radii; direction
   Vec2 at = start;
   auto found = stop_point(sensor_mm, at);
@@ -71,7 +71,7 @@ std::optional<Vec2> CameraRays::aimed(Vec2 sensor_mm, Vec2 stop, Vec2 start) con
     const Vec2 by_x = (*right - *found) * (1.0 / kDifference), by_y = (*up - *found) * (1.0 / kDifference);
     Vec2 step = Vec2{cross(miss, by_y), cross(by_x, miss)} * (1.0 / cross(by_x, by_y));
     bool better = false;
-    for (int halving = 0; halving < kMaxHalvings && !better; ++halving, step = step * 0.5) {
+    for (int halving = 0; halving < kMaxStepHalvings && !better; ++halving, step = step * 0.5) {
       const auto next = stop_point(sensor_mm, at + step);
       better = next && length(stop - *next) < length(miss);
       if (!better) continue;

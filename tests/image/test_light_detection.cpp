@@ -170,14 +170,15 @@ TEST_CASE("a light that moves by a tenth of a pixel moves by a tenth of a pixel"
 }
 
 TEST_CASE("NaN, infinite and negative samples are no light") {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN(),
+                   kInfinity = std::numeric_limits<double>::infinity();
   Image image(20, 20);
-  fill(image, 1, 1, 3, 3, {kNan, kNan, kNan});
-  fill(image, 6, 1, 8, 3, {kInf, kInf, kInf});
+  fill(image, 1, 1, 3, 3, {kNotANumber, kNotANumber, kNotANumber});
+  fill(image, 6, 1, 8, 3, {kInfinity, kInfinity, kInfinity});
   fill(image, 11, 1, 13, 3, {-100, -100, -100});
   CHECK(detect_lights(image, above(1)).value().lights.empty());
   CHECK(detect_lights(image, {}).value().lights.empty());
-  fill(image, 10, 10, 10, 10, {100, kNan, -5});
+  fill(image, 10, 10, 10, 10, {100, kNotANumber, -5});
   const auto lights = detect_lights(image, above(1)).value().lights;
   REQUIRE(lights.size() == 1);
   CHECK(lights[0].flux == Rgb{100, 0, 0});

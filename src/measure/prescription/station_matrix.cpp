@@ -16,6 +16,7 @@ constexpr double kKnotRatio = 1.6;   // of the distances of two knots
 constexpr int kRowsAtOnce = 8;
 constexpr int kRounds = 3;           // of weights and levels
 constexpr double kFirstError = 0.2;  // of a pixel's value, before anything is fitted
+constexpr double kEmptyColumnRidge = 1e-12;  // relative, for columns that no pixel of the picture holds
 
 // Rows of columns at the pixels of some rows of the picture, for one channel.
 class Rows {
@@ -220,15 +221,13 @@ ChannelMatrix chosen_columns(const ChannelMatrix& of, const ColumnIndices& at) {
 }
 
 Eigen::VectorXd others_given(const ChannelMatrix& all, const Eigen::VectorXd& kept) {
-  constexpr double kRidge = 1e-12;  // as in eliminated()
   const Eigen::Index others = all.b.size() - kept.size();
   Eigen::MatrixXd a = all.a.bottomRightCorner(others, others);
-  for (Eigen::Index k = 0; k < others; ++k) a(k, k) = a(k, k) > 0.0 ? a(k, k) * (1.0 + kRidge) : 1.0;
+  for (Eigen::Index k = 0; k < others; ++k) a(k, k) = a(k, k) > 0.0 ? a(k, k) * (1.0 + kEmptyColumnRidge) : 1.0;
   return a.ldlt().solve(all.b.tail(others) - all.a.bottomLeftCorner(others, kept.size()) * kept);
 }
 
 ChannelMatrix eliminated(const ChannelMatrix& all, Eigen::Index kept, const Eigen::VectorXd& prior) {
-  constexpr double kRidge = 1e-12;  // relative, for columns that no pixel of the picture holds
   const Eigen::Index others = all.b.size() - kept;
   ChannelMatrix rest;
   rest.pixels = all.pixels;
@@ -242,7 +241,7 @@ ChannelMatrix eliminated(const ChannelMatrix& all, Eigen::Index kept, const Eige
   Eigen::VectorXd scale(others);
   for (Eigen::Index k = 0; k < others; ++k) scale[k] = a(k, k) > 0.0 ? 1.0 / std::sqrt(a(k, k)) : 0.0;
   a = (scale.asDiagonal() * a * scale.asDiagonal()).eval();
-  for (Eigen::Index k = 0; k < others; ++k) a(k, k) = scale[k] > 0.0 ? 1.0 + kRidge : 1.0;
+  for (Eigen::Index k = 0; k < others; ++k) a(k, k) = scale[k] > 0.0 ? 1.0 + kEmptyColumnRidge : 1.0;
   const Eigen::LDLT<Eigen::MatrixXd> factors(a);
   const Eigen::MatrixXd cross = scale.asDiagonal() * all.a.bottomLeftCorner(others, kept);
   const Eigen::VectorXd right = scale.cwiseProduct(all.b.tail(others));

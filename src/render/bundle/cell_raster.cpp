@@ -154,9 +154,9 @@ bool CellRaster::outside(const PixelBox& box, const std::array<std::size_t, 4>& 
 
 // The frame's pixels within the bounds of all cells that are not closed.
 PixelBox CellRaster::drawn_box() const {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Vec2 low{kFar, kFar};
-  Vec2 high{-kFar, -kFar};
+  constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
+  Vec2 low{kInfinitelyFar, kInfinitelyFar};
+  Vec2 high{-kInfinitelyFar, -kInfinitelyFar};
   const int n = grid_.cells();
   for (int iy = 0; iy < n; ++iy) {
     for (int ix = 0; ix < n; ++ix) {

@@ -79,8 +79,8 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
     part.adjustments.resize(ghosts.size());
     part.ghosts = std::move(ghosts);
     part.dark_margin_px = margin_px;
-    RenderCache cache;
-    auto flare = render_adaptive({lens, part, settings, cache}, {}, {});
+    RenderCache own_cache;
+    auto flare = render_adaptive({lens, part, settings, own_cache}, {}, {});
     REQUIRE(flare.has_value());
     return std::move(flare->picture);
   };

@@ -31,13 +31,13 @@ LensState plate_with(const Iris& iris) {
 
 // The fraction of a pixel that light through the stop covers: the plate's ghost is the stop's own image.
 double fraction_of_pixel(const Iris& iris, const Frame& frame, int x, int y) {
-  constexpr int kSide = 8;
+  constexpr int kSamples = 8;
   int open = 0;
-  for (int k = 0; k < kSide * kSide; ++k) {
-    const Vec2 pixel{x + (k % kSide + 0.5) / kSide, y + (k / kSide + 0.5) / kSide};
+  for (int k = 0; k < kSamples * kSamples; ++k) {
+    const Vec2 pixel{x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples};
     open += iris_distance(iris, frame.sensor_from_pixel(pixel) * (1.0 / kIrisPlateRadius_mm)) <= 0.0 ? 1 : 0;
   }
-  return static_cast<double>(open) / (kSide * kSide);
+  return static_cast<double>(open) / (kSamples * kSamples);
 }
 
 void check_plate(const Iris& iris) {

@@ -318,15 +318,15 @@ TEST_CASE("the same for any number of threads; cancelled when asked; wrong exten
 
 // Two panes and a thin bar, over 48 x 48 pixels, which are as wide as a disc of this radius.
 LightShape panes(double radius_rad) {
-  constexpr int kSide = 48;
+  constexpr int kPanes = 48;
   LightShape shape;
-  shape.level = Image(kSide, kSide, 1);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x)
+  shape.level = Image(kPanes, kPanes, 1);
+  for (int y = 0; y < kPanes; ++y)
+    for (int x = 0; x < kPanes; ++x)
       shape.level.at(x, y) =
           (y >= 4 && y < 36 && ((x >= 3 && x < 18) || (x >= 23 && x < 38))) || (y >= 41 && y < 43) ? 1.0F : 0.0F;
-  const double pixel = 2.0 * std::tan(radius_rad) / kSide;
-  shape.centre_px = {0.5 * kSide, 0.5 * kSide};
+  const double pixel = 2.0 * std::tan(radius_rad) / kPanes;
+  shape.centre_px = {0.5 * kPanes, 0.5 * kPanes};
   shape.right = {pixel, 0.0};
   shape.down = {0.0, -pixel};
   return shape;

@@ -198,22 +198,22 @@ TEST_CASE("a cancelled frame leaves the renderer as it was") {
 }
 
 TEST_CASE("cancelled at any moment, a renderer keeps nothing that is incomplete") {
-  using Clock = std::chrono::steady_clock;
+  using Steady = std::chrono::steady_clock;
   constexpr int kMoments = test::kSanitized ? 4 : 7;
   const LensState dirty = bundled("heliar", {.f_number = 16.0, .iris = {.blades = 6}, .dirt = {.dust_per_cm2 = 30.0}});
   for (const RingingMode mode : {RingingMode::Fresnel, RingingMode::Hullin}) {
     CAPTURE(static_cast<int>(mode));
     SessionFrame f = frame_of("", dirty, {0.7, 0.35});
     f.settings.ringing.mode = mode;
-    const auto began = Clock::now();
+    const auto began = Steady::now();
     const auto alone = render(AdaptiveOptions{}, f.lens, f.lights, f.settings);
-    const auto took = Clock::now() - began;
+    const auto took = Steady::now() - began;
     REQUIRE(alone.has_value());
     for (int k = 0; k < kMoments; ++k) {
       Renderer fresh = renderer_of(AdaptiveOptions{});  // which has to make all that it keeps
       REQUIRE(fresh.set_lens(f.lens).has_value());
       std::atomic<bool> cancel = false;
-      std::thread stopper([&, until = Clock::now() + took * k / kMoments] {
+      std::thread stopper([&, until = Steady::now() + took * k / kMoments] {
         std::this_thread::sleep_until(until);
         cancel = true;
       });

@@ -14,9 +14,9 @@ namespace {
 // The largest radius, up to this one, at which the surface exists.
 double reached_mm(const Surface& surface, double max_mm) {
   if (reaches(surface, max_mm)) return max_mm;
-  constexpr int kHalvings = 50;
+  constexpr int kBisections = 50;
   double low = 0.0, high = max_mm;
-  for (int k = 0; k < kHalvings; ++k) {
+  for (int k = 0; k < kBisections; ++k) {
     const double middle = 0.5 * (low + high);
     (reaches(surface, middle) ? low : high) = middle;
   }
