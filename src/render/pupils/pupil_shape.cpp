@@ -18,12 +18,15 @@ namespace {
 constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row runs along the middle
 constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
 constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
+constexpr std::size_t kBounds = kMaxStopCrossings + 1;  // kRims is the last
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
 // The last grid's area over that of the box that a search finds, below which it missed the pupil. Else the grids are
 // kept, because the search's box changes by whole cells from one light to the next.
 constexpr double kMissed = 0.1;
 constexpr int kMinGrids = 2, kMaxGrids = 4;
+// Of the change of the excess over a triangle: how much less the excess over a bound may be for the bound to count.
+constexpr double kClose = 0.1;
 constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
 constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
 
@@ -50,15 +53,13 @@ class HalvedGrid {
     rays_.trace(box.low, search_precision(std::min(cell_.x, cell_.y)));
     for (std::size_t k = 0; k < rays_.count(); ++k) {
       outside_[k] = std::numeric_limits<float>::infinity();
+      outside_by_[k].fill(outside_[k]);
       if (rays_.fails(k)) continue;
-      outside_[k] = length(rays_.in_circle(0, k)) - 1.0F;
-      by_[k] = kRims;
-      for (int c = 0; c < rays_.crossings(); ++c) {
-        const float at_stop = length(stop(c, k)) - 1.0F;
-        if (!(at_stop > outside_[k])) continue;
-        outside_[k] = at_stop;
-        by_[k] = c;
-      }
+      outside_by_[k].fill(-1.0F);
+      for (int c = 0; c < rays_.crossings(); ++c)
+        outside_by_[k][static_cast<std::size_t>(c)] = length(stop(c, k)) - 1.0F;
+      outside_by_[k][kRims] = length(rays_.in_circle(0, k)) - 1.0F;
+      outside_[k] = *std::ranges::max_element(outside_by_[k]);
     }
   }
 
@@ -68,13 +69,15 @@ class HalvedGrid {
     const std::size_t column = k % kSide, row = k / kSide;
     return box_.low + Vec2{static_cast<double>(column) * cell_.x, static_cast<double>(row) * cell_.y};
   }
-  // The excess of a ray over the bound that it comes closest to or is blocked by, relative to that bound's radius; and
-  // the bound.
+  // The excess of a ray over the bound that it comes closest to or is blocked by, relative to that bound's radius.
   [[nodiscard]] float outside(std::size_t k) const { return outside_[traced(k)]; }
   [[nodiscard]] bool is_open(std::size_t k) const { return outside(k) <= 0.0F; }
-  [[nodiscard]] int by(std::size_t k) const { return by_[traced(k)]; }
-  // The same for linear interpolation: rays that fail, and those far outside, do not count more than others.
+  // The same for linear interpolation, and over one bound: rays that fail, and those far outside, do not count more
+  // than others.
   [[nodiscard]] double excess(std::size_t k) const { return std::min(static_cast<double>(outside(k)), 1.0); }
+  [[nodiscard]] double excess_over(std::size_t bound, std::size_t k) const {
+    return std::min(static_cast<double>(outside_by_[traced(k)][bound]), 1.0);
+  }
   // The box, made symmetric where the grid is, in spite of rounding: then half of the next grid determines the other.
   [[nodiscard]] Rectangle balanced(Rectangle box) const {
     if (first_ > 0) {
@@ -99,7 +102,7 @@ class HalvedGrid {
   Vec2 cell_;
   std::size_t first_ = 0;  // index of the first ray that is traced
   std::array<float, kRays> outside_{};
-  std::array<int, kRays> by_{};
+  std::array<std::array<float, kBounds>, kRays> outside_by_{};
 };
 
 // A box around the open parts of all lines of the grid, or else around the ray that is blocked least; empty where all
@@ -207,7 +210,7 @@ class PupilSum {
   };
   struct Block {
     AreaMoments open;
-    std::array<Border, kMaxStopCrossings + 1> borders{};  // by what bounds them
+    std::array<Border, kBounds> borders{};  // by what bounds them
   };
 
   // A cell is halved along both diagonals, so that a pupil and its mirror image measure the same.
@@ -231,23 +234,37 @@ class PupilSum {
     if (open.has_border) add_border(open, vertex, kWeight, block);
   }
 
-  // A border belongs to what blocks the vertices beyond it, to each as much as it is the nearer one.
+  // A border belongs to the bound over which the excess is largest there, and not where a ray beyond it may be blocked
+  // most; to two bounds where both are as close.
   void add_border(const OpenPolygon& open, const std::array<std::size_t, 3>& vertex, double weight, Block& block) {
+    const std::array<double, 3> at = weights_at(vertex, (open.border[0] + open.border[1]) * 0.5);
+    const auto blocked = [&](std::size_t k) { return !grid_.is_open(k) && std::isfinite(grid_.outside(k)); };
+    if (std::ranges::none_of(vertex, blocked)) return;  // the rays beyond it fail
+    std::array<double, kBounds> excess{}, part{};
+    for (std::size_t bound = 0; bound < kBounds; ++bound)
+      for (std::size_t k = 0; k < 3; ++k) excess[bound] += at[k] * grid_.excess_over(bound, vertex[k]);
+    const auto [least, most] = std::ranges::minmax(vertex, {}, [&](std::size_t k) { return grid_.excess(k); });
+    const double close = kClose * (grid_.excess(most) - grid_.excess(least));
+    const double largest = *std::ranges::max_element(excess);
     double all = 0.0;
-    const auto nearness = [&](std::size_t k) {
-      const double outside = grid_.outside(k);
-      return outside > 0.0 && std::isfinite(outside) ? 1.0 / outside : 0.0;
-    };
-    for (const std::size_t k : vertex) all += nearness(k);
-    if (!(all > 0.0)) return;  // the rays beyond it fail
+    for (std::size_t bound = 0; bound < kBounds; ++bound)
+      all += part[bound] = std::max(1.0 - (largest - excess[bound]) / std::max(close, 1e-12), 0.0);
     const double length_mm = weight * length(open.border[1] - open.border[0]);
-    for (const std::size_t k : vertex) {
-      if (!(nearness(k) > 0.0)) continue;
-      Border& border = block.borders[static_cast<std::size_t>(grid_.by(k))];
-      const double own_mm = length_mm * nearness(k) / all;
+    for (std::size_t bound = 0; bound < kBounds; ++bound) {
+      if (!(part[bound] > 0.0)) continue;
+      Border& border = block.borders[bound];
+      const double own_mm = length_mm * part[bound] / all;
       border.length_mm += own_mm;
       border.sum = border.sum + (open.border[0] + open.border[1]) * (0.5 * own_mm);
     }
+  }
+
+  // Barycentric coordinates.
+  [[nodiscard]] std::array<double, 3> weights_at(const std::array<std::size_t, 3>& vertex, Vec2 p) const {
+    const Vec2 a = grid_.start(vertex[0]), b = grid_.start(vertex[1]), c = grid_.start(vertex[2]);
+    const double area = cross(b - a, c - a);
+    const double of_b = cross(p - a, c - a) / area, of_c = cross(b - a, p - a) / area;
+    return {1.0 - of_b - of_c, of_b, of_c};
   }
 
   const HalvedGrid& grid_;
