@@ -19,8 +19,8 @@ namespace contrejour {
 
 struct GhostFigures {
   Ghost ghost;
-  Rgb rgb{};                    // flux over the direct image's flux, per channel
-  double relative_flux = 0;     // luminance of `rgb`
+  Rgb rgb{};  // flux over the direct image's flux, per channel
+  double relative_flux = 0;  // luminance of `rgb`
   double peak_irradiance = 0;  // largest mean irradiance over a pixel of the sensor, over the light's irradiance at the
                                // front
   double reflectance = 0;  // product of its surfaces' reflectances at normal incidence, by luminance

@@ -71,9 +71,9 @@ class CONTREJOUR_API Renderer {
   [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,
                                                    const LayerOptions& options, const Context& context = {});
 
-  // The approximate memory that is kept for the frames to come: up to 300 MB of pupils, fluxes and starbursts, and up to
-  // 256 MB of the pixels of pictures and layers that were destroyed, all of which the last four frames used; and what
-  // tables, patterns, dirt and scratch memory take.
+  // The approximate memory that is kept for the frames to come: up to 300 MB of pupils, fluxes and starbursts, and up
+  // to 256 MB of the pixels of pictures and layers that were destroyed, all of which the last four frames used; and
+  // what tables, patterns, dirt and scratch memory take.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

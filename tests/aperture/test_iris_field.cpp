@@ -40,7 +40,8 @@ TEST_CASE("a white picture of any size is the round stop") {
     CHECK(field->area() / kPi == test::approx(1.0).epsilon(2e-4));
     for (int k = 0; k < 200; ++k) {
       const Vec2 p = scattered(k);
-      if (length(p) > 0.9 && length(p) < 1.0) CHECK(field->distance(p) == test::approx(length(p) - 1.0).epsilon(1e-4).scale(1.0));
+      if (length(p) > 0.9 && length(p) < 1.0)
+        CHECK(field->distance(p) == test::approx(length(p) - 1.0).epsilon(1e-4).scale(1.0));
       CHECK((field->distance(p) <= 0.0) == (length(p) <= 1.0));
     }
   }

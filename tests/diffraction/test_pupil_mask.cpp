@@ -41,7 +41,8 @@ TEST_CASE("an edge's samples are its exact share, at any angle") {
         int inside = 0;
         for (int i = 0; i < 10000; ++i)
           inside += dot(n, centre + Vec2{(i % 100 + 0.5) / 100 - 0.5, (i / 100 + 0.5) / 100 - 0.5}) <= 0.37;
-        CHECK(mask.amplitude[static_cast<std::size_t>(row * 64 + column)] == test::approx(inside * 1e-4).epsilon(0.002).scale(1.0));
+        CHECK(mask.amplitude[static_cast<std::size_t>(row * 64 + column)] ==
+              test::approx(inside * 1e-4).epsilon(0.002).scale(1.0));
       }
     }
   }

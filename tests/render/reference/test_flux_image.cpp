@@ -54,7 +54,8 @@ TEST_CASE("a triangle's coverage agrees with counting sub-pixel points") {
     }
   }
   const double total = sum(counted);
-  for (std::size_t k = 0; k < 36; ++k) CHECK(p[k] == contrejour::test::approx(counted[k] / total).epsilon(0.02).scale(0.01));
+  for (std::size_t k = 0; k < 36; ++k)
+    CHECK(p[k] == contrejour::test::approx(counted[k] / total).epsilon(0.02).scale(0.01));
 }
 
 TEST_CASE("no flux is lost inside the image, whatever the polygon's shape, size or orientation") {
