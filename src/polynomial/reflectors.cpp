@@ -75,7 +75,7 @@ HWY_INLINE void subtract(const double* vectors, std::size_t count, const double*
   for (; j < count; ++j) subtract_block<1, kColumns>(vectors + j * rows, factors + j, columns, rows);
 }
 
-// Some of the columns: x - V T^T V^T x. Their entries in the panel's rows of the ridge are 0 before.
+// Replaces kColumns columns x by x - V T^T V^T x. Their entries in the panel's rows of the ridge are 0 before.
 template <std::size_t kColumns>
 HWY_INLINE void reflect_columns(const Panel& panel, const double* vectors, std::size_t rows, double* columns,
                                 double* panel_rows) {

@@ -62,7 +62,7 @@ TEST_CASE("least squares of unknowns that are added minimise with each number of
     for (std::size_t k = 0; k < rights.size(); ++k)
       CHECK(largest_gradient(columns, kRows, rights[k], kRidge, solutions[k]) < 1e-11);
   }
-  // Of a system that has grown further, the first unknowns alone.
+  // The first unknowns can be solved for alone in a system that has grown further.
   for (const std::size_t first : steps) {
     GrowingLeastSquares::Right again(padded);
     const auto solutions = squares.solve(again, first);

@@ -59,13 +59,13 @@ Landings land(const GhostRays& rays, const Window& window) {
   return landings;
 }
 
-// Where the border lies between a lit ray and one that is not.
+// A point of the pupil's border, between a lit ray and one that is not.
 struct Crossing {
   double part;  // of the way from the lit one
   Vec2 sensor_mm;
 };
 
-// Linear in how far the rays are blocked; by halving where one of them does not reach the sensor.
+// Interpolates linearly how far the rays are blocked, or halves the way where the dark one does not reach the sensor.
 Crossing crossing_between(const Landing& lit, const Landing& dark, const GhostRays& rays) {
   constexpr int kHalvings = 6;
   if (dark.is_ray) {
@@ -81,7 +81,7 @@ Crossing crossing_between(const Landing& lit, const Landing& dark, const GhostRa
   return last;
 }
 
-// About the rays that get through, a cell wider.
+// The part of the window that has all rays that get through, and a cell more on each side.
 std::optional<Window> lit_part(const Landings& landings, const Window& window) {
   int left = kSide, right = -1, top = kSide, bottom = -1;
   for (int row = 0; row < kSide; ++row)
@@ -97,8 +97,8 @@ std::optional<Window> lit_part(const Landings& landings, const Window& window) {
                 window.at(std::min(kSide - 1, right + 1), std::min(kSide - 1, bottom + 1))};
 }
 
-// Wider where rays on its border are lit, within the whole: a tip of the pupil may lie between two rays of a coarse
-// grid.
+// Extends the window beyond each side that has lit rays, within the whole: a tip of the pupil may lie between two rays
+// of a coarse grid.
 Window widened(const Landings& landings, const Window& window, const Window& whole) {
   constexpr double kByPart = 0.25;
   const auto is_lit = [&](int column, int row) { return at(landings, column, row).is_lit(); };
@@ -131,7 +131,7 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
   return sum * (1.0 / static_cast<double>(polygon.size()));
 }
 
-// Of a window that contains all of the pupil.
+// Extends the window until it contains the whole pupil, and traces its rays.
 Landings landings_within(const GhostRays& rays, Window window, const Window& whole) {
   constexpr int kMostSteps = 4;
   Landings landings = land(rays, window);

@@ -16,7 +16,8 @@
 namespace contrejour::studio {
 namespace {
 
-// They rank ghosts, whose fluxes differ by decades: the bands of a list of figures would take twice the time.
+// Fluxes of ghosts differ by decades, so that three bands suffice to rank them; those of the list would take twice the
+// time.
 constexpr const char* kRankedBands = "3";
 
 // Lights are placed here; the others do not change which ghosts are bright where.

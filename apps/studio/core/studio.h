@@ -111,7 +111,7 @@ class Studio {
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   [[nodiscard]] const std::string& problem() const { return problem_; }
   [[nodiscard]] const std::string& problem_key() const { return problem_key_; }  // merge key of the refused command
-  // What was done last: the last step of the history, or what its work has answered since.
+  // The message tells the last step of the history, or what its work has answered since.
   [[nodiscard]] const std::string& message() const { return message_; }
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] bool is_saved() const { return history_.is_saved(); }

@@ -24,7 +24,7 @@ struct GhostRow {
   std::size_t rank, figures;
 };
 
-// Those that the filter names ("3-8", or "8" for all that reflect there), in the order asked for.
+// The ghosts that the filter names ("3-8", or "8" for all that reflect there), in the order asked for.
 std::vector<GhostRow> rows_of(const Ui& ui) {
   const auto& figures = ui.studio.figures();
   std::vector<GhostRow> rows;
@@ -178,7 +178,7 @@ void draw_ghost_row(Ui& ui, const GhostRow& row, double largest) {
 }
 
 // Columns are as wide as their texts; where the panel is narrower, it scrolls.
-// Of a ghost that was selected elsewhere since the last frame; -1: none.
+// The row of a ghost that was selected elsewhere since the last frame; -1: none.
 int row_to_bring_into_sight(Ui& ui, const std::vector<GhostRow>& rows) {
   const auto ghost = ui.studio.selection.ghost;
   if (!ghost) ui.state.ghost_in_sight.reset();

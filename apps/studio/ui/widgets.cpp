@@ -30,7 +30,7 @@ const WidgetRecord* WidgetRegistry::find(const std::string& id) const {
   return found != widgets_.end() ? &*found : nullptr;
 }
 
-// In lines of at most this width, broken at spaces: Dear ImGui's own lines also break behind the point of a number.
+// Breaks a text at spaces into lines of at most this width: Dear ImGui also breaks behind the point of a number.
 std::string wrapped(const std::string& text, float width) {
   std::string lines;
   std::size_t line = 0, at = 0;  // where the last line begins in `lines`; how much of the text is there
@@ -50,7 +50,7 @@ std::string wrapped(const std::string& text, float width) {
   return lines;
 }
 
-// An item that is dragged or typed in, or was clicked just now, is looked at itself.
+// While an item is dragged or typed in, and just after a click, the user looks at the item, and its tip would hide it.
 bool is_in_use(ImVec2 min, ImVec2 max) {
   constexpr double kAfterClick_s = 1.5;
   const ImGuiIO& io = ImGui::GetIO();
@@ -59,7 +59,7 @@ bool is_in_use(ImVec2 min, ImVec2 max) {
   return was_clicked || ImGui::IsItemActive() || ImGui::IsMouseDown(ImGuiMouseButton_Left);
 }
 
-// Below the item, or above it where it would not fit; beside the mouse in a large one.
+// Places a tip below its item, or above it where it would not fit; beside the mouse if the item is large.
 ImVec2 place_of_tip(ImVec2 min, ImVec2 max, ImVec2 size) {
   const ImVec2 window = ImGui::GetIO().DisplaySize, mouse = ImGui::GetIO().MousePos;
   const float gap = scaled(4), x = std::clamp(mouse.x, gap, std::max(gap, window.x - size.x - gap));

@@ -39,7 +39,7 @@ class Window {
   void end_frame(const std::function<void()>& before_swap = {});
   // The next frame is drawn whole, whatever has changed.
   void redraw() { tiles_.forget(); }
-  // Of fonts and distances, between two frames.
+  // Sets the scale of fonts and distances; it is called between two frames.
   void set_scale(float scale);
   [[nodiscard]] double drawn_part() const { return drawn_part_; }  // of the window's pixels, by the last frame
   // The next frame's pixels will be read.

@@ -21,11 +21,12 @@ constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  
 constexpr std::size_t kBounds = kMaxStopCrossings + 1;  // kRims is the last
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
-// The last grid's area over that of the box that a search finds, below which it missed the pupil. Else the grids are
-// kept, because the search's box changes by whole cells from one light to the next.
+// The grids missed the pupil if the last one's area is less than this part of the area of the box that a search finds.
+// Else they are kept, because the search's box changes by whole cells from one light to the next.
 constexpr double kMissed = 0.1;
 constexpr int kMinGrids = 2, kMaxGrids = 4;
-// Of the change of the excess over a triangle: how much less the excess over a bound may be for the bound to count.
+// A bound counts at a border if the excess over it is less than the largest one by no more than this part of the
+// change of the excess over the triangle.
 constexpr double kClose = 0.1;
 constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
 constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
@@ -234,8 +235,8 @@ class PupilSum {
     if (open.has_border) add_border(open, vertex, kWeight, block);
   }
 
-  // A border belongs to the bound over which the excess is largest there, and not where a ray beyond it may be blocked
-  // most; to two bounds where both are as close.
+  // A border belongs to the bound over which the excess is largest at the border itself, which need not be the one that
+  // blocks a ray beyond it most. Where several bounds are nearly as close, they share it.
   void add_border(const OpenPolygon& open, const std::array<std::size_t, 3>& vertex, double weight, Block& block) {
     const std::array<double, 3> at = weights_at(vertex, (open.border[0] + open.border[1]) * 0.5);
     const auto blocked = [&](std::size_t k) { return !grid_.is_open(k) && std::isfinite(grid_.outside(k)); };
@@ -259,7 +260,7 @@ class PupilSum {
     }
   }
 
-  // Barycentric coordinates.
+  // The barycentric coordinates of a point in a triangle.
   [[nodiscard]] std::array<double, 3> weights_at(const std::array<std::size_t, 3>& vertex, Vec2 p) const {
     const Vec2 a = grid_.start(vertex[0]), b = grid_.start(vertex[1]), c = grid_.start(vertex[2]);
     const double area = cross(b - a, c - a);
