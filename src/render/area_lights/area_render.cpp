@@ -73,6 +73,7 @@ class AreaPainter {
     if (piece != nullptr) {
       const KernelExtent extent = extent_of(*piece, image.px_from_tangents);
       at = pyramid_of(image).frame_for(std::max(image.level, 0), extent);
+      if (image.level < 0) at.moved = at.moved + image.window.moved;
       drawn.frame = at.frame;
       part.dark_margin_px = std::max(extent.left + extent.right, extent.up + extent.down);
     }

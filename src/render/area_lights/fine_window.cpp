@@ -11,6 +11,8 @@ namespace {
 constexpr double kMargin_px = 32.0;  // for the spot's dim surroundings,
 constexpr double kColourFringe = 0.03;  // and for lateral colour, over the frame's diagonal
 
+double to_middle(double px) { return std::floor(px) + 0.5 - px; }
+
 }  // namespace
 
 FineWindow window_around(Vec2 at_px, double radius_px, const Frame& frame, int level) {
@@ -22,19 +24,24 @@ FineWindow window_around(Vec2 at_px, double radius_px, const Frame& frame, int l
   window.top = within(std::floor(at_px.y - reach), frame.height);
   window.width = within(std::ceil(at_px.x + reach), frame.width) - window.left;
   window.height = within(std::ceil(at_px.y + reach), frame.height) - window.top;
+  const Vec2 fine_px = at_px * std::exp2(-level);
+  window.moved = {to_middle(fine_px.x), to_middle(fine_px.y)};
   return window;
 }
 
 Frame fine_frame(const FineWindow& window, const Frame& frame) {
   const int times = 1 << -window.level;
+  const double pitch_mm = frame.pixel_pitch_mm / times;
+  // A frame's columns run against the sensor's x.
+  const Vec2 moved_mm{-window.moved.x * pitch_mm, window.moved.y * pitch_mm};
   return {window.width * times,
           window.height * times,
           (frame.origin_x + window.left) * times,
           (frame.origin_y + window.top) * times,
           frame.full_width * times,
           frame.full_height * times,
-          frame.pixel_pitch_mm / times,
-          frame.shift_mm};
+          pitch_mm,
+          frame.shift_mm + moved_mm};
 }
 
 Image gathered(const FineWindow& window, const Image& fine) {

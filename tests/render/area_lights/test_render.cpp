@@ -236,6 +236,26 @@ TEST_CASE("the pieces of a divided light have the colours of points over it") {
   CHECK(psnr_db(truth.image, ours.image) > 50.0);  // 39 with bands as wide as a whole light may have
 }
 
+TEST_CASE("a spot much smaller than the light's image lies in its pixels as points over the light would") {
+  const LensState lens = test::bundled("itoh-zoom", {.focal_length_mm = 123.0, .f_number = 32.0});
+  test::Settings settings = test::green(frame_on_sensor(lens, 160, 90));
+  settings.selection = SelectList{{Ghost{1, 3}}};
+  for (const double down_px : {0.0, 0.06, 0.12}) {
+    Light light = test::light_at(lens, settings.frame, {0.7778, (33.42 + down_px) / 90});
+    light.radius_rad = kSunRadius_rad;
+    settings.set_error(0.003);
+    const Flare ours = test::flare_of("adaptive", lens, {&light, 1}, settings);
+    settings.set_error(1e-4);
+    const Flare truth = test::flare_of("adaptive", lens, points_over(light, 200), settings);
+    double off = 0.0, flux = 0.0;
+    for (std::size_t k = 0; k < ours.image.pixels.size(); ++k) {
+      off = std::max(off, std::abs(1.0 * ours.image.pixels[k] - truth.image.pixels[k]));
+      flux += truth.image.pixels[k];
+    }
+    CHECK(off < 0.003 * flux);  // 0.008 where pixels do not keep its position
+  }
+}
+
 TEST_CASE("size zero is the point, bit for bit; a very small disc is nearly that") {
   const LensState lens = test::bundled("heliar", {.f_number = 11.0});
   test::Settings settings = test::green(frame_on_sensor(lens, 120, 80));
