@@ -2,6 +2,7 @@
 #include "base/tasks.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -37,6 +38,17 @@ int core_count() {
 }
 
 int thread_count(const Context& context) { return context.threads > 0 ? context.threads : core_count(); }
+
+// Waits while the context's caller needs the processors. A caller that never releases them only slows the work down.
+void rest_while_held(const Context& context) {
+  using std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kLongest(8);
+  constexpr std::chrono::microseconds kStep(200);
+  const auto is_held = [&] { return context.hold != nullptr && context.hold->load(std::memory_order_relaxed); };
+  if (!is_held()) return;
+  for (const auto until = steady_clock::now() + kLongest; is_held() && steady_clock::now() < until;)
+    std::this_thread::sleep_for(kStep);
+}
 
 // Passes rising fractions on to the caller, from one thread at a time.
 class ProgressReport {
@@ -78,6 +90,7 @@ bool parallel_for(std::size_t count, const Context& context, const std::function
   hand_over(&started);
   run_in_arena(thread_count(context), [&] {
     oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      rest_while_held(context);
       if (context.cancelled()) return;
       take_over(&started);
       body(i);
@@ -112,6 +125,7 @@ bool ordered_pipeline_erased(std::size_t count, const Context& context,
                                                           return next++;
                                                         });
   const auto work = tbb::make_filter<std::size_t, Item>(tbb::filter_mode::parallel, [&](std::size_t i) {
+    rest_while_held(context);
     take_over(&started);
     Item item{i, produce(i)};
     hand_over(item.product.get());

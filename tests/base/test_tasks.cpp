@@ -220,6 +220,29 @@ TEST_CASE("cancelling half way stops soon and says so") {
   }
 }
 
+TEST_CASE("a held loop rests before each of its parts, for a bounded time, and then does the same work") {
+  for (const int threads : kThreadCounts) {
+    CAPTURE(threads);
+    std::atomic<bool> hold = true;
+    Context context = with_threads(threads);
+    context.hold = &hold;
+    const auto start = std::chrono::steady_clock::now();
+    std::atomic<int> calls = 0;
+    CHECK(parallel_for(1, context, [&](std::size_t) { ++calls; }));
+    CHECK(ordered_pipeline(1, context, [](std::size_t i) { return i; }, [&](std::size_t, std::size_t) { ++calls; }));
+    CHECK(std::chrono::steady_clock::now() - start >= std::chrono::milliseconds(2 * 8));
+    CHECK(calls == 2);
+
+    std::thread release([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      hold = false;
+    });
+    CHECK(parallel_for(kItems, context, [&](std::size_t) { ++calls; }));
+    CHECK(calls == 2 + static_cast<int>(kItems));
+    release.join();
+  }
+}
+
 TEST_CASE("loops may nest") {
   std::atomic<int> visits = 0;
   CHECK(parallel_for(8, with_threads(2),

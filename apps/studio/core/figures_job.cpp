@@ -13,12 +13,11 @@ namespace {
 constexpr int kFiguresThreads = 1;
 constexpr std::chrono::milliseconds kRestBeforeFigures{120}, kRestBeforeRanks{400};
 
-Result<FiguresAnswer> figures_of(const FiguresOrder& order, const std::atomic<bool>& cancel) {
+Result<FiguresAnswer> figures_of(const FiguresOrder& order, const Context& context) {
   const auto light = light_of(order.values, *order.lens, order.light);
   if (!light) return tl::unexpected(light.error());
   const auto request = figures_request(order.values, *order.lens, &*light);
   if (!request) return tl::unexpected(request.error());
-  const Context context{.threads = kFiguresThreads, .cancel = &cancel};
   auto figures = ghost_figures(*order.lens, *request, context);
   if (!figures) return tl::unexpected(figures.error());
   auto footprints = footprints_of(*order.lens, *figures, *light, request->frame, context);
@@ -30,7 +29,7 @@ class FiguresWorker {
  public:
   void work(const FiguresOrder& order, FiguresJob::Control& control) {
     if (!control.rests_for(kRestBeforeFigures)) return;
-    auto figures = figures_of(order, control.is_outdated());
+    auto figures = figures_of(order, control.context(kFiguresThreads));
     if (control.is_outdated()) return;
     if (!figures) return control.publish({order.revision, order.light, {}, {}, figures.error().to_string(), nullptr});
     figures->ranks = ranks_.find(order.values, *order.lens);
@@ -42,8 +41,7 @@ class FiguresWorker {
   void add_ranks(const FiguresOrder& order, FiguresAnswer figures, FiguresJob::Control& control) {
     control.goes_on_for_later();
     if (!control.rests_for(kRestBeforeRanks)) return;
-    figures.ranks =
-        ranks_.measure(order.values, *order.lens, {.threads = kFiguresThreads, .cancel = &control.is_outdated()});
+    figures.ranks = ranks_.measure(order.values, *order.lens, control.context(kFiguresThreads));
     if (figures.ranks && !control.is_outdated()) control.publish(std::move(figures));
   }
 

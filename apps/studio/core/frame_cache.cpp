@@ -26,7 +26,7 @@ class CacheWorker {
     for (int k = 0; k < count && !control.is_outdated(); ++k) {
       const int frame = order.first + (order.now - order.first + k) % count;
       if (cache_->has(frame)) continue;
-      auto shown = frame_of(order, frame, {.cancel = &control.is_outdated()});
+      auto shown = frame_of(order, frame, control.context());
       if (!shown || !cache_->add(order.revision, frame, std::move(shown))) return;
       control.publish(cache_->count());
     }

@@ -118,7 +118,7 @@ void write_all(const FramesOrder& order, FramesJob::Control& control) {
   for (int frame = order.first; renderer && frame <= order.last && !control.is_outdated(); ++frame) {
     if (std::ranges::binary_search(answer.missing, frame)) continue;
     control.publish(answer);
-    if (auto ok = writer.write(frame, *renderer, {.cancel = &control.is_outdated()}); !ok) {
+    if (auto ok = writer.write(frame, *renderer, control.context()); !ok) {
       answer.error = ok.error().to_string();
       break;
     }

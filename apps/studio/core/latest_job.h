@@ -22,6 +22,12 @@ namespace contrejour::studio {
 // one that renders has a lower one.
 enum class JobPriority { Background, Interface };
 
+// What all jobs of a program share.
+struct JobHost {
+  std::function<void()> wake = {};  // called after each answer and each end of work, on the job's thread
+  const std::atomic<bool>* hold = nullptr;  // set while the interface's thread needs the processors (Context::hold)
+};
+
 template <class Request, class Answer>
 class LatestJob {
  public:
@@ -31,8 +37,12 @@ class LatestJob {
     explicit Control(LatestJob& job) : job_(job) {}
     // Set once a newer request was posted, or the job ends.
     [[nodiscard]] const std::atomic<bool>& is_outdated() const { return job_.outdated_; }
-    // Set once the job ends: for work that a newer request does not stop.
-    [[nodiscard]] const std::atomic<bool>& is_ending() const { return job_.ending_; }
+    // For computations that a newer request stops. threads: 0 for all cores.
+    [[nodiscard]] Context context(int threads = 0) const {
+      return {.threads = threads, .cancel = &job_.outdated_, .hold = job_.host_.hold};
+    }
+    // For those that only the job's end stops.
+    [[nodiscard]] Context context_until_end() const { return {.cancel = &job_.ending_, .hold = job_.host_.hold}; }
     // Waits, and returns early with false if a newer request arrives.
     [[nodiscard]] bool rests_for(std::chrono::milliseconds time) {
       std::unique_lock lock(job_.mutex_);
@@ -43,7 +53,7 @@ class LatestJob {
         const std::lock_guard lock(job_.mutex_);
         job_.answer_ = std::move(answer);
       }
-      if (job_.on_answer_) job_.on_answer_();
+      if (job_.host_.wake) job_.host_.wake();
     }
     // The request is answered, but the work goes on for the requests to come: nobody waits for it.
     void goes_on_for_later() {
@@ -57,8 +67,8 @@ class LatestJob {
 
   using Work = std::function<void(const Request&, Control&)>;
 
-  LatestJob(Work work, std::function<void()> on_answer, JobPriority priority = JobPriority::Background)
-      : work_(std::move(work)), on_answer_(std::move(on_answer)), priority_(priority), thread_([this] { run(); }) {}
+  LatestJob(Work work, JobHost host, JobPriority priority = JobPriority::Background)
+      : work_(std::move(work)), host_(std::move(host)), priority_(priority), thread_([this] { run(); }) {}
 
   ~LatestJob() {
     {
@@ -103,7 +113,7 @@ class LatestJob {
         const std::lock_guard lock(mutex_);
         working_ = false;
       }
-      if (on_answer_) on_answer_();
+      if (host_.wake) host_.wake();
     }
   }
 
@@ -117,7 +127,7 @@ class LatestJob {
   }
 
   Work work_;
-  std::function<void()> on_answer_;  // after each answer and each end of work, on the job's thread
+  JobHost host_;
   JobPriority priority_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -141,8 +141,7 @@ ThumbnailJob::Work thumbnail_work() {
       if (control.is_outdated()) return;
       const fs::path kept = kept_file(look, order.folder);
       auto thumbnail = read_kept(kept);
-      if (!thumbnail)
-        thumbnail = rendered(look, kept, {.threads = kThumbnailThreads, .cancel = &control.is_outdated()});
+      if (!thumbnail) thumbnail = rendered(look, kept, control.context(kThumbnailThreads));
       if (!thumbnail) return;
       all[look.source] = std::move(thumbnail);
       control.publish(all);

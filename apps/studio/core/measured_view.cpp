@@ -45,7 +45,7 @@ Result<Image> kymograph_of(const MeasuredFlare& flare, double half_width, const 
 class MeasuredWorker {
  public:
   void work(const MeasuredOrder& order, MeasuredJob::Control& control) {
-    const Context context{.threads = 1, .cancel = &control.is_outdated()};
+    const Context context = control.context(1);
     auto ok = open(order, context);
     MeasuredAnswer answer = opened_;
     answer.angle_deg = order.angle_deg;
@@ -64,7 +64,7 @@ class MeasuredWorker {
 
  private:
   void show_photographs(const MeasuredOrder& order, MeasuredAnswer answer, MeasuredJob::Control& control) {
-    const Context context{.threads = 1, .cancel = &control.is_outdated()};
+    const Context context = control.context(1);
     auto ok = photographs_.show(order, stops_, answer, context);
     if (control.is_outdated()) return;
     if (!ok) answer.error = ok.error().to_string();

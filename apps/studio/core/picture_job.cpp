@@ -45,7 +45,7 @@ class PictureWorker {
     params::Values values = draft_values(order, level);
     const bool shifts_stars = StarLayers::are_wanted(values) && stars_.have(order.stars);
     if (shifts_stars) leave_out_stars(values);
-    const Context context{.cancel = &control.is_ending()};
+    const Context context = control.context_until_end();
     // Lights that stand still keep their ghosts when the brightest of the others change.
     params::Values kept = values;
     replace(kept, "select", *order.values.text("select"));
@@ -66,7 +66,7 @@ class PictureWorker {
   }
 
   void refine(const PictureOrder& order, PictureJob::Control& control) {
-    const Context context{.cancel = &control.is_outdated()};
+    const Context context = control.context();
     PictureAnswer answer = rendered(order, order.values, context, [&] {
       return order.plate ? PlatePictures::refined(*order.plate, *order.lens, order.values, *renderer_, context)
                          : flare_of(order, order.values, [&](const PictureRequest& request) {

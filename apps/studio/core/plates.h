@@ -14,7 +14,7 @@ namespace contrejour::studio {
 
 class Plates {
  public:
-  explicit Plates(std::function<void()> wake) : job_(plate_work(), std::move(wake)) {}
+  explicit Plates(JobHost host) : job_(plate_work(), std::move(host)) {}
 
   // Reads a plate that the user asks for. frame: of a sequence; none: its first one.
   void open(const SessionPlate& plate) { job_.post({plate, std::nullopt, true}); }

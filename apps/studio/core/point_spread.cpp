@@ -116,7 +116,7 @@ std::vector<std::uint32_t> logarithmic(const Image& rgb) {
 PointSpreadJob::Work point_spread_work() {
   return [](const PointSpreadOrder& order, PointSpreadJob::Control& control) {
     if (!control.rests_for(kRestBeforeSpread)) return;
-    auto answer = answer_of(order, {.threads = kSpreadThreads, .cancel = &control.is_outdated()});
+    auto answer = answer_of(order, control.context(kSpreadThreads));
     if (control.is_outdated()) return;
     if (!answer) answer = PointSpreadAnswer{{}, {}, 0, 0, 0, answer.error().to_string()};
     control.publish(std::move(*answer));

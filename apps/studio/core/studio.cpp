@@ -42,14 +42,14 @@ std::vector<StarLight> stars_of(const Document& document) {
 Studio::Studio(std::string how_opened, Document first, StudioSettings settings)
     : history_(std::move(how_opened), std::move(first)), look_folders_(settings.looks),
       looks_(all_looks(settings.looks.own)), autosave_(settings.autosave_folder),
-      picture_job_(picture_work(), settings.wake), display_job_(display_work(), settings.wake, JobPriority::Interface),
-      figures_job_(figures_work(), settings.wake), section_job_(section_work(), settings.wake, JobPriority::Interface),
+      picture_job_(picture_work(), settings.jobs), display_job_(display_work(), settings.jobs, JobPriority::Interface),
+      figures_job_(figures_work(), settings.jobs), section_job_(section_work(), settings.jobs, JobPriority::Interface),
       export_job_([](const ExportTask& task, auto& control) { control.publish({task.file, task.write()}); },
-                  settings.wake),
-      plates_(settings.wake), detection_job_(detection_work(), settings.wake), views_job_(views_work(), settings.wake),
-      compare_job_(compare_work(), settings.wake), thumbnail_job_(thumbnail_work(), settings.wake),
-      point_spread_job_(point_spread_work(), settings.wake), frames_job_(frames_work(), settings.wake),
-      cache_job_(cache_work(frame_cache_), settings.wake), measured_job_(measured_work(), settings.wake) {
+                  settings.jobs),
+      plates_(settings.jobs), detection_job_(detection_work(), settings.jobs), views_job_(views_work(), settings.jobs),
+      compare_job_(compare_work(), settings.jobs), thumbnail_job_(thumbnail_work(), settings.jobs),
+      point_spread_job_(point_spread_work(), settings.jobs), frames_job_(frames_work(), settings.jobs),
+      cache_job_(cache_work(frame_cache_), settings.jobs), measured_job_(measured_work(), settings.jobs) {
   auto lens = params::lens_of(*document().lens, document().values());
   if (!lens) {
     refuse(lens.error(), "");

@@ -48,7 +48,7 @@ struct ExportAnswer {
 };
 
 struct StudioSettings {
-  std::function<void()> wake = {};  // called on other threads when an answer can be taken
+  JobHost jobs = {};  // wake: an answer can be taken
   std::filesystem::path autosave_folder = {};
   LookFolders looks = {};
 };

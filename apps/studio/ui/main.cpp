@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // contrejour-studio: the desktop program. `contrejour studio` starts it.
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -49,8 +50,23 @@ std::string title_of(const Studio& studio) {
   return fmt::format("{}{} \u2013 Contrejour", name, studio.is_saved() ? "" : " *");
 }
 
-// One frame from input to the screen; its time without the wait for input.
-Result<void> run_frame(Window& window, Interface& interface, std::optional<Script>& script) {
+// Sets a flag while the interface's thread needs a processor (JobHost::hold). The system does not stop a thread that
+// renders at once: up to three times in a frame, a frame on two cores waited 4 ms for one.
+class ProcessorTurn {
+ public:
+  explicit ProcessorTurn(std::atomic<bool>& is_on) : is_on_(is_on) { is_on_ = true; }
+  ~ProcessorTurn() { end(); }
+  ProcessorTurn(const ProcessorTurn&) = delete;
+  ProcessorTurn& operator=(const ProcessorTurn&) = delete;
+  void end() { is_on_ = false; }
+
+ private:
+  std::atomic<bool>& is_on_;
+};
+
+// One frame from input to the screen; its time without the wait for input. draws: set meanwhile.
+Result<void> run_frame(Window& window, Interface& interface, std::optional<Script>& script, std::atomic<bool>& draws) {
+  ProcessorTurn turn(draws);
   const double start = glfwGetTime(), processor_start = processor_time_s();
   if (script)
     if (auto ok = script->step(window, interface); !ok) return ok;
@@ -60,6 +76,7 @@ Result<void> run_frame(Window& window, Interface& interface, std::optional<Scrip
   Result<void> saved;
   window.end_frame([&] {
     if (script) saved = script->after_frame(window);
+    if (window.waits_in_swap()) turn.end();
   });
   const double end = glfwGetTime();
   interface.pace().frame(start, end, processor_time_s() - processor_start, window.drawn_part());
@@ -116,7 +133,8 @@ void rest_until(double time_s, Window& window, Studio& studio) {
 }
 
 // Until the user, or the script, quits.
-int run_frames(Window& window, Interface& interface, std::optional<Script>& script, bool as_fast_as_possible) {
+int run_frames(Window& window, Interface& interface, std::optional<Script>& script, bool as_fast_as_possible,
+               std::atomic<bool>& draws) {
   int settling = 0;  // frames until what an input has opened or lit up is drawn
   FrameRate rate;
   while (!interface.wants_to_quit() && !(script && script->wants_to_quit())) {
@@ -130,7 +148,7 @@ int run_frames(Window& window, Interface& interface, std::optional<Script>& scri
     settling = window.input().is_empty() ? std::max(0, settling - 1) : kSettlingFrames;
     window.set_scale(static_cast<float>(interface.scale()));
     const double start = glfwGetTime();
-    if (auto ok = run_frame(window, interface, script); !ok) return fail(ok.error());
+    if (auto ok = run_frame(window, interface, script, draws); !ok) return fail(ok.error());
     rate.frame(start, glfwGetTime());
     window.set_title(title_of(interface.studio()));
   }
@@ -148,10 +166,11 @@ int run(const Options& options) {
   if (!window) return fail(window.error());
   const std::filesystem::path copies =
       options.state_folder.empty() ? state_folder() : std::filesystem::path(options.state_folder);
-  Studio studio("first scene", first_document(), {Window::wake, copies, usual_look_folders()});
+  std::atomic<bool> draws = false;
+  Studio studio("first scene", first_document(), {{Window::wake, &draws}, copies, usual_look_folders()});
   Interface interface(studio, static_cast<double>(options.window.scale));
   if (!options.file.empty()) interface.open_file(options.file);
-  return run_frames(**window, interface, script, !options.window.waits_for_display);
+  return run_frames(**window, interface, script, !options.window.waits_for_display, draws);
 }
 
 int run_checked(int argc, char** argv) {

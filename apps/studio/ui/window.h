@@ -41,6 +41,8 @@ class Window {
   void redraw() { tiles_.forget(); }
   // Sets the scale of fonts and distances; it is called between two frames.
   void set_scale(float scale);
+  // Showing a frame is a wait for the graphics card, and not work for the processors.
+  [[nodiscard]] bool waits_in_swap() const { return !keeps_pixels_; }
   [[nodiscard]] double drawn_part() const { return drawn_part_; }  // of the window's pixels, by the last frame
   // The next frame's pixels will be read.
   void prepare_reading();
