@@ -18,6 +18,7 @@ constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest li
 constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
 constexpr int kFits = 3;              // rounds; each weights lines by the errors that the one before leaves
 constexpr double kOfMiddle = 0.02;    // weight relative to all lines, for directions that none constrains
+constexpr double kLeast = 0.15;  // the least weight of lines and middle in any direction: few lines there come and go
 
 // Converts sensor mm to pixels: x is mirrored.
 Vec2 mirrored(Vec2 v) { return {-v.x, v.y}; }
@@ -54,6 +55,19 @@ double weight_of(const GhostBlur& ghost, const BlurredLine& f, const LightPiece&
   return f.height * f.height * f.length_px / edge_width_px(ghost, f, piece);
 }
 
+// How much weight the direction that weighted normals constrain least lacks for kLeast of all. squares: the sum of
+// their squares, with weights that sum to `all`.
+struct Lack {
+  Vec2 direction;
+  double weight = 0.0;
+};
+Lack lack_of(const LinearMap& squares, double all) {
+  const double angle = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
+  return {{-std::sin(angle), std::cos(angle)}, std::max(kLeast * all - eigenvalues(squares).x, 0.0)};
+}
+
+LinearMap square_of(Vec2 v, double weight) { return {v * (weight * v.x), v * (weight * v.y)}; }
+
 // The map whose rows along all normals are closest to the lines' own: least squares, with weights for which large
 // errors grow only linearly in displacement_px.
 LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const LinearMap& middle) {
@@ -65,12 +79,13 @@ LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const Lin
       const double off = displacement_px(f, best, piece), width = edge_width_px(ghost, f, piece);
       const double w = weight_of(ghost, f, piece) / (1.0 + off / width);
       all += w;
-      squares = squares + LinearMap{f.normal * (w * f.normal.x), f.normal * (w * f.normal.y)};
+      squares = squares + square_of(f.normal, w);
       sums = sums + LinearMap{f.normal * (w * f.shift_px.x), f.normal * (w * f.shift_px.y)};
     }
     if (!(all > 0.0)) return middle;
-    const double little = kOfMiddle * all;
-    best = inverse(squares + LinearMap{} * little) * (sums + middle * little);
+    const Lack lack = lack_of(squares, all);
+    const LinearMap by_middle = LinearMap{} * (kOfMiddle * all) + square_of(lack.direction, lack.weight);
+    best = inverse(squares + by_middle) * (sums + by_middle * middle);
   }
   return best;
 }
@@ -114,6 +129,7 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   Covariance best{first.x.x, first.x.y, first.y.y};
   for (int fit = 0; fit < kFits; ++fit) {
     CovarianceFit equations;
+    LinearMap squares = kZeroMap;
     double all = 0.0;
     for (const BlurredLine& f : ghost.lines) {
       const double wanted = variance(f.shift_px, piece.covariance);
@@ -123,9 +139,12 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
       // The difference of squared radii is that of the radii times their sum.
       const double w = weight_of(ghost, f, piece) / (1.0 + off) / std::max((radius + made) * (radius + made), 1e-6);
       equations.add(f.normal, wanted, w);
+      squares = squares + square_of(f.normal, w);
       all += w;
     }
     if (!(all > 0.0)) return through;
+    const Lack lack = lack_of(squares, all);
+    equations.add(lack.direction, dot(lack.direction, first(lack.direction)), lack.weight);
     for (const Vec2 n : {Vec2{1.0, 0.0}, Vec2{std::sqrt(0.5), std::sqrt(0.5)}, Vec2{0.0, 1.0}})
       equations.add(n, dot(n, first(n)), kOfMiddle * all);
     best = std::move(equations).solved();

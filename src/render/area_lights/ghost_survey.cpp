@@ -108,7 +108,8 @@ Result<void> GhostSurvey::examine_parts(std::span<GhostOfArea> ghosts, const std
   for (GhostOfArea& ghost : ghosts) {
     const LightPiece& whole = wholes[ghost.light].pieces.front();
     if (whole.samples.empty()) continue;
-    if (may_need_parts(ghost, whole, budget)) {
+    ghost.doubt = doubt_about(ghost, whole, budget);
+    if (ghost.doubt > 0.0) {
       unsure.push_back(&ghost);
       wanted.emplace(ghost.light, 2);
     } else {

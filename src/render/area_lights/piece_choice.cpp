@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
 constexpr double kFasterThanAngle = 3.0;  // assumed relative change of a motion per unit of angle (tangent)
-constexpr double kSquaresFraction = 0.003;  // of the allowed error: smaller errors of a ghost are not examined
-constexpr double kFluxFraction = 5e-4;  // of all flux: smaller errors of a ghost are not examined
+// Smaller errors of a ghost are not examined, and those twice as large count in full:
+constexpr double kSquaresFraction = 0.0015;  // of the allowed error
+constexpr double kFluxFraction = 2.5e-4;  // of all flux
 constexpr double kFluxAllowed = 0.004;  // of the flux of all ghosts
 constexpr double kKnownFlux = 0.004;  // of a ghost's flux: accuracy of measurements by grids of rays
 constexpr double kSpot_px = 40.0;  // radius
@@ -55,15 +56,20 @@ double flux_left_of(double flux_error, int across) { return flux_error / (static
 
 }  // namespace
 
-bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget) {
-  if (!ghost.motion.is_open)
-    return ghost.motion.flux_mm2 > 0.0 && ghost.motion.outside < kOutside + kOutsideByAngle * radius_of(whole);
-  if (!(ghost.blur.level > 0.0) || !(budget.peak > 0.0)) return false;
+double doubt_about(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget) {
+  if (!ghost.motion.is_open) {
+    const bool may_open =
+        ghost.motion.flux_mm2 > 0.0 && ghost.motion.outside < kOutside + kOutsideByAngle * radius_of(whole);
+    return may_open ? 1.0 : 0.0;
+  }
+  if (!(ghost.blur.level > 0.0) || !(budget.peak > 0.0)) return 0.0;
   const double flux_change = foreseen_flux(ghost.motion, whole);
-  if (flux_change * ghost.blur.flux > kFluxFraction * budget.flux) return true;
   const double displacement_px = 0.5 * ghost.blur.blur_px.y * kFasterThanAngle * radius_of(whole);
-  return moved_error(ghost.blur, displacement_px, budget.peak) + dimmed_error(ghost.blur, flux_change, budget.peak) >
-         kSquaresFraction * budget.squares;
+  const double squares =
+      moved_error(ghost.blur, displacement_px, budget.peak) + dimmed_error(ghost.blur, flux_change, budget.peak);
+  const double times_flux = flux_change * ghost.blur.flux / (kFluxFraction * budget.flux),
+               times_squares = squares / (kSquaresFraction * budget.squares);
+  return std::clamp(std::max(times_flux, times_squares) - 1.0, 0.0, 1.0);
 }
 
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
@@ -97,11 +103,12 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
   }
   const double whole_flux = ghost.blur.flux;
   const double off = std::max(std::abs(whole_flux - flux) - kKnownFlux * whole_flux, 0.0);
-  if (ghost.blur.level > 0.0 || level > 0.0) ghost.flux_error = off;
+  if (ghost.blur.level > 0.0 || level > 0.0) ghost.flux_error = ghost.doubt * off;
   GhostBlur bright = ghost.blur;
   bright.level = std::max(bright.level, level);
-  ghost.squares += dimmed_error(bright, std::min(off / std::max(whole_flux, 1e-30), 1.0), peak);
-  if (lit > 0.0) ghost.squares += moved_error(bright, 2.0 * std::sqrt(squares / lit), peak);
+  double by_parts = dimmed_error(bright, std::min(off / std::max(whole_flux, 1e-30), 1.0), peak);
+  if (lit > 0.0) by_parts += moved_error(bright, 2.0 * std::sqrt(squares / lit), peak);
+  ghost.squares += ghost.doubt * by_parts;
   // An upper bound: all light is displaced.
   const double all = limited(bright.level / peak);
   ghost.squares = std::min(ghost.squares, 2.0 * all * all * bright.area_px);

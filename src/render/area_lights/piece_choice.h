@@ -19,6 +19,7 @@ struct GhostOfArea {
   // The same for the pieces of the light divided in two across, if they are examined.
   std::vector<GhostMotion> part_motions;
   std::vector<GhostBlur> part_blurs;
+  double doubt = 0.0;  // to what degree what the parts show counts, 0 to 1
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
   double squares = 0.0, flux_error = 0.0;
   int across = 1;  // pieces of the light
@@ -33,8 +34,10 @@ struct AreaBudget {
   double spot_squares = 0.0;  // of one spot, as `squares` (spot_level())
 };
 
-// Whether the ghost may differ so much from what the light's middle predicts that the light's parts must be examined.
-[[nodiscard]] bool may_need_parts(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
+// To what degree the ghost may differ from what the light's middle predicts, 0 to 1: above 0 the light's parts must be
+// examined. It rises steadily, so that no ghost is divided at once because its parts are examined in one frame and not
+// in the one before.
+[[nodiscard]] double doubt_about(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget);
 
 // Predicts `squares` and `flux_error`. parts: the pieces of the light divided in two across.
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
