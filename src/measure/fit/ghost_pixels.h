@@ -21,8 +21,8 @@ struct StationFrame {
   TangentFrame pixels;
   Vec2 to_light{1.0, 0.0};  // unit, y up
   // A fit may take one pixel of `sampled_every`, evenly spread: those for which x + r y is a multiple, r the root of
-  // that number, so that the nearest of them lies about r away in every direction; and others that are marked, row by
-  // row.
+  // that number and at least 2, so that the nearest of them lies about r away in every direction; and others that are
+  // marked, row by row.
   int sampled_every = 1, sampled_shift = 1;
   std::shared_ptr<const std::vector<bool>> also_sampled = nullptr;
 

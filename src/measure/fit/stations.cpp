@@ -304,7 +304,7 @@ std::vector<bool> about_small_ghosts(const FitStation& station, const MeasuredFl
 std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every, const MeasuredFlare& flare) {
   for (FitStation& station : stations) {
     station.frame.sampled_every = every;
-    station.frame.sampled_shift = static_cast<int>(std::lround(std::sqrt(every)));
+    station.frame.sampled_shift = std::max(2, static_cast<int>(std::lround(std::sqrt(every))));
     if (!flare.ghosts.empty())
       station.frame.also_sampled = std::make_shared<const std::vector<bool>>(about_small_ghosts(station, flare));
     for (int y = 0; y < station.rate.height; ++y) {
