@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flares fitted to simulated captures of lenses whose prescriptions say what is right: a program of its own.
-//   flare_fit [LENS, or all] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES]
+//   flare_fit [LENS, or all] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES, or -] [WIDTH]
+// Pictures have half the raw width, and the fit reduces them to at most the last width.
 // Each ghost by itself, as the exact renderer draws it at one angle, is compared with the fitted ghost by itself: its
 // middle over the light's place (speed), its RMS height (size), its flux, and the RMS difference over its bright level.
 // `in picture` is the RMS difference of all ghosts together over the ghost's body, over its bright level, but for a
@@ -326,7 +327,8 @@ void write_fluxes(const FittedFlare& fit, const std::string& file) {
 }
 
 struct Run {
-  int stations = 61, raw_width = 1200;
+  int stations = 61, raw_width = 1280;
+  int width = FlareFitOptions{}.max_width;
   std::string kept, pictures;  // folders; empty: none
 };
 
@@ -350,6 +352,7 @@ int run(const std::string& name, const Run& settings) {
   const double light = taken.light_rate / 4.0;  // over pixels of half the raw size
   const double start = seconds_now(), processor_start = processor_seconds();
   FlareFitOptions options;
+  options.max_width = settings.width;
   options.pictures = settings.pictures.empty() ? 0 : 8;
   const Result<FittedFlare> fit = fit_flare(sweep_of(*capture, light), *geometry, options);
   if (!fit) {
@@ -384,7 +387,8 @@ int main(int argc, char** argv) {
   if (argc > 2) settings.stations = std::stoi(argv[2]);
   if (argc > 3) settings.raw_width = std::stoi(argv[3]);
   if (argc > 4) settings.kept = argv[4];
-  if (argc > 5) settings.pictures = argv[5];
+  if (argc > 5 && std::string(argv[5]) != "-") settings.pictures = argv[5];
+  if (argc > 6) settings.width = std::stoi(argv[6]);
   if (argc > 1 && std::string(argv[1]) != "all") return run(argv[1], settings);
   std::printf("| Lens | Held out | Flux | Found | Error below 10 %% | Speed, size | Centre, px | CPU s | s |\n");
   int failed = 0;

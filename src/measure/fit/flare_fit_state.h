@@ -33,6 +33,9 @@ struct FlareFit {
 
   [[nodiscard]] MeasuredFlare& flare() { return result.flare; }
   [[nodiscard]] const MeasuredFlare& flare() const { return result.flare; }
+  // One pixel of how many is fitted, where it is one of `every` in pictures of 320 pixels: as many pixels of larger
+  // pictures, since what the model does not describe, and not noise, limits the fit.
+  [[nodiscard]] int sampling(int every) const;
   // The flare with these ghosts instead of its own.
   [[nodiscard]] MeasuredFlare flare_of(std::vector<MeasuredGhost> ghosts) const;
 };

@@ -20,13 +20,14 @@ inline constexpr std::size_t kPlaceCurves = 4;   // of these, those on which a p
 struct StationFrame {
   TangentFrame pixels;
   Vec2 to_light{1.0, 0.0};  // unit, y up
-  // A fit may take one pixel of `sampled_every`, evenly spread: those for which x + 2 y is a multiple; and others that
-  // are marked, row by row.
-  int sampled_every = 1;
+  // A fit may take one pixel of `sampled_every`, evenly spread: those for which x + r y is a multiple, r the root of
+  // that number and at least 2, so that the nearest of them lies about r away in every direction; and others that are
+  // marked, row by row.
+  int sampled_every = 1, sampled_shift = 1;
   std::shared_ptr<const std::vector<bool>> also_sampled = nullptr;
 
   [[nodiscard]] bool is_sampled(int x, int y) const {
-    return (x + 2 * y) % sampled_every == 0 ||
+    return (x + sampled_shift * y) % sampled_every == 0 ||
            (also_sampled && (*also_sampled)[static_cast<std::size_t>(y * pixels.width + x)]);
   }
 };

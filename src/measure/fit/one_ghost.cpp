@@ -67,7 +67,8 @@ std::vector<FitStation> few_stations(const std::vector<FitStation>& stations, do
 
 std::optional<MeasuredGhost> fitted_alone(FlareFit& fit, const std::vector<FitStation>& all_residuals,
                                           const FoundGhost& found) {
-  std::vector<FitStation> residuals = sampled_stations(few_stations(all_residuals, kSeenMargin * found.last), 2);
+  std::vector<FitStation> residuals =
+      sampled_stations(few_stations(all_residuals, kSeenMargin * found.last), fit.sampling(2));
   for (FitStation& station : residuals) station = disc_window(std::move(station), found);
   MeasuredFlare alone = fit.flare_of({start_of_ghost(found, residuals, fit.flare().s_max)});
   const FlareProblem empty(residuals, fit.flare_of({}));

@@ -22,8 +22,8 @@ constexpr std::size_t kUsualCoefficients = 2;  // where no station is held out
 constexpr int kShapeIterations = 10;
 constexpr int kMostFromResidual = 8;  // ghosts that the search after profiles may add
 constexpr double kLeastHeldGain = 8.0;  // of the cost at the stations held out, for such a ghost
-// One pixel of this number is fitted: for levels, and for outlines, which are costly where ghosts with profiles
-// overlap.
+// One pixel of this number is fitted in pictures of 320 pixels: for levels, and for outlines, which are costly where
+// ghosts with profiles overlap.
 constexpr int kLevelSamples = 3, kShapeSamples = 6;
 
 // Wide ghosts of which no edge is found add up to light that changes slowly over the picture and moves with the light,
@@ -70,8 +70,8 @@ struct ProfileFit {
   std::optional<double> least;  // cost at the stations held out
 
   explicit ProfileFit(FlareFit& state)
-      : fit(state), stations(sampled_stations(state.fine, kLevelSamples)),
-        held(sampled_stations(state.held_fine, kLevelSamples)) {
+      : fit(state), stations(sampled_stations(state.fine, state.sampling(kLevelSamples))),
+        held(sampled_stations(state.held_fine, state.sampling(kLevelSamples))) {
     settings.huber = fit.options.huber;
     if (!held.empty()) least = held_cost(fit, held, fit.flare(), 0.0);
   }
@@ -111,8 +111,8 @@ bool choose_profiles(ProfileFit& all) {
 // All outlines together, with the optical centre, then the levels once more.
 void fit_shapes(ProfileFit& all) {
   FlareFit& fit = all.fit;
-  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, kShapeSamples, fit.flare()), fit.flare(),
-                                    {fit.options.huber, kShapeIterations, true});
+  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, fit.sampling(kShapeSamples), fit.flare()),
+                                    fit.flare(), {fit.options.huber, kShapeIterations, true});
   std::vector<FitStation> moved = all.stations;
   for (FitStation& station : moved) move_centre(station, shapes.centre_shift);
   (void)all.keep(with_best_amplitudes(moved, shapes.flare, all.settings, fit.context), shapes.centre_shift);

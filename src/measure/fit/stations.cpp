@@ -20,7 +20,7 @@ constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this pa
 constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
 // Ghosts up to this radius have every pixel within kAboutPart * radius + kAbout_px fitted.
 constexpr double kSmall_px = 8.0, kAboutPart = 1.3, kAbout_px = 2.0;
-constexpr double kUsable = 0.5;    // of a block's pixels, for the block to be used
+constexpr double kUsable = 1.0;    // of a block's pixels, for the block to be used
 
 // Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
 Vec2 red_offset(BayerPattern pattern) {
@@ -243,17 +243,18 @@ FitStation half_size_station(const FitStation& station) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
-        float sum = 0.0F, weight = 0.0F, used = 0.0F;
+        float sum = 0.0F, weight = 0.0F;
+        int used = 0;
         for (int k = 0; k < 4; ++k) {
           const float w = station.weight.at(2 * x + k % 2, 2 * y + k / 2, c);
           if (w == 0.0F) continue;
           sum += station.rate.at(2 * x + k % 2, 2 * y + k / 2, c);
           weight += w;
-          used += 1.0F;
+          ++used;
         }
-        if (used < 2.0F) continue;
-        half.rate.at(x, y, c) = 4.0F * sum / used;  // the light of a pixel of four times the area
-        half.weight.at(x, y, c) = weight / used / 16.0F;
+        if (used < 4) continue;  // as in block_at()
+        half.rate.at(x, y, c) = sum;  // the light of a pixel of four times the area
+        half.weight.at(x, y, c) = weight / 64.0F;
       }
     }
   }
@@ -303,6 +304,7 @@ std::vector<bool> about_small_ghosts(const FitStation& station, const MeasuredFl
 std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every, const MeasuredFlare& flare) {
   for (FitStation& station : stations) {
     station.frame.sampled_every = every;
+    station.frame.sampled_shift = std::max(2, static_cast<int>(std::lround(std::sqrt(every))));
     if (!flare.ghosts.empty())
       station.frame.also_sampled = std::make_shared<const std::vector<bool>>(about_small_ghosts(station, flare));
     for (int y = 0; y < station.rate.height; ++y) {

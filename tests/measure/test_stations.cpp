@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "measure/fit/stations.h"
+#include "support/approx.h"
+
+using namespace contrejour;
+
+namespace {
+
+constexpr int kRawWidth = 96, kRawHeight = 64;
+constexpr double kRange = 50.0;  // brighter values are saturated
+
+double steep_halo(int x, int y, Vec2 light_px) {
+  return 4e4 * std::pow(std::hypot(x + 0.5 - light_px.x, y + 0.5 - light_px.y), -2.5);
+}
+
+CapturedImage saturated_halo(Vec2 light_px) {
+  CapturedImage image{Image(kRawWidth, kRawHeight), Image(kRawWidth, kRawHeight), Image(kRawWidth, kRawHeight), {}};
+  for (int y = 0; y < kRawHeight; ++y) {
+    for (int x = 0; x < kRawWidth; ++x) {
+      const double level = steep_halo(x, y, light_px);
+      for (int c = 0; c < 3; ++c) {
+        image.rate.at(x, y, c) = static_cast<float>(std::min(level, kRange));
+        image.variance.at(x, y, c) = 1.0F;
+        image.valid.at(x, y, c) = level < kRange ? 1.0F : 0.0F;
+      }
+    }
+  }
+  return image;
+}
+
+// The light that a pixel of a reduced picture would have without saturation.
+double whole_block(int x, int y, int block, Vec2 light_px) {
+  double sum = 0.0;
+  for (int k = 0; k < block * block; ++k) sum += steep_halo(block * x + k % block, block * y + k / block, light_px);
+  return sum;
+}
+
+double largest_error(const FitStation& station, int block, Vec2 light_px) {
+  double most = 0.0;
+  for (int y = 0; y < station.rate.height; ++y) {
+    for (int x = 0; x < station.rate.width; ++x) {
+      if (station.weight.at(x, y, 1) == 0.0F) continue;
+      const double whole = whole_block(x, y, block, light_px);
+      most = std::max(most, std::abs(static_cast<double>(station.rate.at(x, y, 1)) / whole - 1.0));
+    }
+  }
+  return most;
+}
+
+// The least distance between two pixels that are sampled.
+double least_distance(const StationFrame& frame) {
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int kReach = 12;
+  for (int y = 0; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      const bool later = y > 0 || x > 0;  // than the sampled pixel (sampled_every, 0)
+      if (later && frame.is_sampled(frame.sampled_every + x, y)) least = std::min(least, std::hypot(x, y));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("stations: reduced pictures have the light of whole blocks, also beside saturated pixels") {
+  const Vec2 light{40.3, 30.7};
+  FlareSweep sweep;
+  for (int k = -2; k <= 2; ++k) sweep.angles_rad.push_back(0.05 * k);
+  sweep.picture = [&](std::size_t) -> Result<CapturedImage> { return saturated_halo(light); };
+  FlareFitOptions options;
+  options.max_width = kRawWidth / 2;
+  const SweepGeometry geometry{{48.0, 32.0}, 100.0, 0.0, 0.0, 0.0, 0.0, {}};
+  const Result<SweepStations> reduced = reduced_stations(sweep, geometry, options, {});
+  REQUIRE(reduced);
+  const FitStation& station = reduced->stations.front();
+  REQUIRE(station.rate.width == kRawWidth / 2);
+  CHECK(reduced->saturated > 0.0);
+  CHECK(largest_error(station, 2, light) < 1e-5);
+  CHECK(largest_error(half_size_station(station), 4, light) < 1e-5);
+}
+
+TEST_CASE("stations: samples are evenly spread, however few they are") {
+  FitStation station;
+  station.rate = station.weight = Image(60, 40);
+  station.frame.pixels = {60, 40, 50.0, {30.0, 20.0}};
+  for (float& weight : station.weight.pixels) weight = 1.0F;
+  for (const int every : {2, 3, 4, 6, 8, 12, 16, 24}) {
+    CAPTURE(every);
+    const FitStation sampled = sampled_stations({station}, every).front();
+    CHECK(least_distance(sampled.frame) > 0.7 * std::sqrt(every));
+    const auto used = std::ranges::count_if(sampled.weight.pixels, [](float weight) { return weight > 0.0F; });
+    CHECK(static_cast<double>(used) == test::approx(3.0 * 60.0 * 40.0 / every).epsilon(0.03));
+  }
+}
