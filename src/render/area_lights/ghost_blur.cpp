@@ -18,7 +18,7 @@ constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest li
 constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
 constexpr int kFits = 3;              // rounds; each weights lines by the errors that the one before leaves
 constexpr double kOfMiddle = 0.02;    // weight relative to all lines, for directions that none constrains
-constexpr double kLeast = 0.15;  // the least weight of lines and middle in any direction: few lines there come and go
+constexpr double kLeast = 0.08;  // the least weight of lines and middle in any direction: few lines there come and go
 
 // Converts sensor mm to pixels: x is mirrored.
 Vec2 mirrored(Vec2 v) { return {-v.x, v.y}; }
