@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a long computation needs from its caller: threads, cancelling, a progress report, and when to rest.
+// A long computation takes these from its caller: threads, cancelling, a progress report, and when to rest.
 // The result is the same, bit for bit, for any number of threads. Thread-safety: `cancelled` and `progress`
 // may be called from any worker thread, progress never from two at once.
 #pragma once

@@ -22,7 +22,7 @@ namespace contrejour::studio {
 // one that renders has a lower one.
 enum class JobPriority { Background, Interface };
 
-// What all jobs of a program share.
+// All jobs of a program share these.
 struct JobHost {
   std::function<void()> wake = {};  // called after each answer and each end of work, on the job's thread
   const std::atomic<bool>* hold = nullptr;  // set while the interface's thread needs the processors (Context::hold)

@@ -125,7 +125,7 @@ struct PixelTerm {
   CurveGradient gradient;  // its first `size` values
 };
 
-// Of sizes known to the compiler, which is several times as fast where profiles of many ghosts overlap.
+// The compiler knows the sizes, which is several times as fast where profiles of many ghosts overlap.
 template <int kRows, int kColumns>
 void add_outer(const PixelTerm& a, const PixelTerm& b, double w, Eigen::MatrixXd& hessian) {
   for (int column = 0; column < kColumns; ++column) {

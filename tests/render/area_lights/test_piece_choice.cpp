@@ -77,7 +77,7 @@ TEST_CASE("lines of a ghost that come and go do not change the ghost's blur at o
     Ghost ghost;
     int first, end;  // times between which the light moves, by a tenth of a pixel each
   };
-  // Of the Heliar's ghost a part of the outline comes near the frame that moves otherwise than the part inside it; the
+  // A part of the outline of the Heliar's ghost comes near the frame and moves otherwise than the part inside it; the
   // shorter radius fell to a sixth at once. The Canon's pupil is narrow, and few of its outline's pieces constrain the
   // motion along it: it fell by half.
   for (const Case& one : {Case{"heliar", {.f_number = 16.0}, 587.6, {3, 4}, 68, 82},
