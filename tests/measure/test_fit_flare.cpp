@@ -97,7 +97,8 @@ TEST_CASE("fit flare: the Tessar's bright ghost is found and fitted, and the opt
   const double centre = 0.25 * 320 + 0.5 * capture.settings.centre_offset_px.x;
   CHECK(std::abs(fit->centre_px.x - centre) < 0.1);
   CHECK(std::abs(fit->centre_px.y - (0.25 * 214 + 0.5 * capture.settings.centre_offset_px.y)) < 0.1);
-  // Three of thirteen stations are held out, and are described about as well as the others.
+  // Three of thirteen stations are held out, and are described about as well as the others; up to 1.32 times was seen,
+  // as above.
   REQUIRE(fit->stations.size() == 13);
   CHECK(std::ranges::count(fit->stations, true, &FittedStation::held_out) == 3);
   CHECK(fit->held_out_nrmse < 1.4 * fit->nrmse);

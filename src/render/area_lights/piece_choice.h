@@ -19,7 +19,7 @@ struct GhostOfArea {
   // The same for the pieces of the light divided in two across, if they are examined.
   std::vector<GhostMotion> part_motions;
   std::vector<GhostBlur> part_blurs;
-  double doubt = 0.0;  // to what degree what the parts show counts, 0 to 1
+  double doubt = 0.0;  // 0 to 1: the weight of the errors that the parts show
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
   double squares = 0.0, flux_error = 0.0;
   int across = 1;  // pieces of the light
