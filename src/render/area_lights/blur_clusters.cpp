@@ -38,7 +38,7 @@ class Grouping {
 
   void add(std::size_t index, const PieceGhost& one) {
     const double own = map_error(*one.blur, one.blur->px, piece_, peak_);
-    Group* group = group_for(one, own);
+    Group* group = group_for(one, as_drawn(*one.blur), own);
     if (group == nullptr) {
       const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
       group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, index, one.blur->px, one.spot, {}});
@@ -52,24 +52,27 @@ class Grouping {
 
  private:
   // The group in which a ghost costs least: in error, and in work, which grows with the number of a level's pixels.
-  // Null where every group makes more error than a separate image may save.
-  Group* group_for(const PieceGhost& one, double own) {
+  // Null where every group makes more error than a separate image may save. Sums of errors end where they exceed what
+  // would still be cheapest: nearly all groups differ from a ghost by far more.
+  Group* group_for(const PieceGhost& one, const GhostBlur& drawn, double own) {
     Group* best = nullptr;
     double cheapest = std::numeric_limits<double>::infinity();
     const double limit = allowed_ * cost_of(one.level, frame_);
+    const BlurredGhost ghost = one.blur->over(peak_);
     for (Group& group : groups) {
       const bool is_window = group.level < 0 || one.level < 0;
       if (is_window && (group.level != one.level || group.spot != one.spot)) continue;
-      const BlurredGhost ghost = one.blur->over(peak_);
       const double coarse =
           group.level > one.level ? level_error(ghost, group.level) + spot_error(ghost, group.level) : 0.0;
-      if (!(coarse <= limit)) continue;
+      const double pixels_cost = kPixelsCost * std::exp2(-2 * std::max(group.level, 0));
+      const double enough = std::min(limit, (cheapest - pixels_cost) * allowed_) - coarse;
+      if (!(enough >= 0.0)) continue;
       const LinearMap& map = group.is_sharp ? kZeroMap : group.map;
       // A ghost that its own map fits badly may fit another's as well, but changes visibly between the two.
-      const double error = std::max(map_error(*one.blur, map, piece_, peak_) - own,
-                                    map_difference(*one.blur, one.blur->px, map, piece_, peak_)) +
-                           coarse;
-      const double cost = error / allowed_ + kPixelsCost * std::exp2(-2 * std::max(group.level, 0));
+      const double change = map_error(drawn, map, piece_, peak_, enough);
+      if (change > enough) continue;
+      const double error = std::max(map_error(*one.blur, map, piece_, peak_, own + enough) - own, change) + coarse;
+      const double cost = error / allowed_ + pixels_cost;
       if (!(error <= limit && cost < cheapest)) continue;
       cheapest = cost;
       cheapest_ = error;

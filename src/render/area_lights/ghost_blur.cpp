@@ -235,20 +235,20 @@ GhostBlur softened(GhostBlur ghost, const LightPiece& piece) {
   return ghost;
 }
 
-double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak) {
+double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak, double enough) {
   if (!(ghost.level > 0.0) || !(peak > 0.0)) return 0.0;
   double squares = 0.0;
-  for (const BlurredLine& f : ghost.lines)
+  for (const BlurredLine& f : ghost.lines) {
     squares +=
         f.length_px * misfit_error(f.height / peak, edge_width_px(ghost, f, piece), displacement_px(f, px, piece));
+    if (squares > enough) break;
+  }
   return squares;
 }
 
-double map_difference(const GhostBlur& ghost, const LinearMap& a, const LinearMap& b, const LightPiece& piece,
-                      double peak) {
-  GhostBlur as_drawn = ghost;
-  for (BlurredLine& f : as_drawn.lines) f.shift_px = along(f.normal, a);
-  return map_error(as_drawn, b, piece, peak);
+GhostBlur as_drawn(GhostBlur ghost) {
+  for (BlurredLine& f : ghost.lines) f.shift_px = along(f.normal, ghost.px);
+  return ghost;
 }
 
 namespace {

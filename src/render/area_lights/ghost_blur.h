@@ -3,6 +3,7 @@
 // error of using one linear map of the light's directions for the motion of all its parts.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "contrejour/frame.h"
@@ -45,12 +46,14 @@ struct GhostBlur {
 [[nodiscard]] GhostBlur softened(GhostBlur ghost, const LightPiece& piece);
 
 // The squared error, summed over the frame's pixels in squares of the peak, of blurring the ghost by this map. For
-// discs and soft pieces only the width of the blur counts; for other pieces the map's rotation does, too.
-[[nodiscard]] double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak);
+// discs and soft pieces only the width of the blur counts; for other pieces the map's rotation does, too. An error
+// above `enough` may be given as any value above it, which saves the rest of the sum.
+[[nodiscard]] double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak,
+                               double enough = std::numeric_limits<double>::infinity());
 
-// The same difference between the ghost blurred by one map and by another.
-[[nodiscard]] double map_difference(const GhostBlur& ghost, const LinearMap& a, const LinearMap& b,
-                                    const LightPiece& piece, double peak);
+// The ghost as its own map blurs it: its lines move as the map says. Its map_error for another map is the difference
+// between pictures drawn with the two maps.
+[[nodiscard]] GhostBlur as_drawn(GhostBlur ghost);
 
 // The level that the brightest kPeakFraction of the frame reach, with ghosts as uniform discs.
 inline constexpr double kPeakFraction = 0.002;

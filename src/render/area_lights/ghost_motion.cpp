@@ -19,7 +19,7 @@ namespace {
 constexpr double kRayStep = 1e-3;      // of the entrance window's width,
 constexpr double kPupilStep = 0.1;     // or of the pupil's standard deviation, whichever is less
 constexpr double kAngleStep = 1e-4;    // tangent: 0.01 mm on many sensors; floats resolve a thousandth of it
-constexpr double kStrange = 2.0;       // times the motion at a fixed point of the front: more is not plausible
+constexpr double kStrange = 2.0;       // times the motion of something steadier nearby: more is not plausible
 
 double size(const LinearMap& map) { return length(map.x) + length(map.y); }
 
@@ -298,6 +298,17 @@ class StartMotion {
   std::array<double, kMaxStopCrossings + 1> weights_{};
 };
 
+// The motion at the pupil's middle, no larger than kStrange times that of the fastest piece of the border: beside a ray
+// at which the map to the stop folds, the stop's coordinates hardly follow the ray, and the motion at a fixed point of
+// the stop grows without limit.
+LinearMap plausible(const LinearMap& shift, const std::vector<GhostLine>& lines) {
+  double largest = 0.0;
+  for (const GhostLine& line : lines)
+    if (line.is_border) largest = std::max(largest, length(line.shift_mm));
+  const double mean_row = std::sqrt(0.5 * (dot(shift.x, shift.x) + dot(shift.y, shift.y)));
+  return largest > 0.0 && mean_row > kStrange * largest ? shift * (kStrange * largest / mean_row) : shift;
+}
+
 // Makes the fractions of all lines of a kind sum to 1.
 void normalise_fractions(std::vector<GhostLine>& lines) {
   for (const bool is_border : {true, false}) {
@@ -372,6 +383,7 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
     return !std::isfinite(f.density + f.shift_mm.x + f.shift_mm.y + f.normal.x + f.normal.y);
   });
   normalise_fractions(motion.lines);
+  motion.shift_mm = plausible(motion.shift_mm, motion.lines);
   if (!std::isfinite(motion.flux_mm2 + size(motion.shift_mm) + size(motion.spread_mm))) return {};
   return motion;
 }

@@ -72,3 +72,26 @@ TEST_CASE("a ghost that the stop bounds moves as its ray through the middle of t
   }
   CHECK(checked > 60);
 }
+
+TEST_CASE("a ghost whose map to the stop folds moves about as fast as its light does") {
+  const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 200.0, .f_number = 32.0});
+  const ReflectanceTables tables(lens, 550.0);
+  const LensSteps steps(lens, tables);
+  const Vec3 middle = direction_for_image_point(lens, {-8.0, -3.2}, 550.0);
+  const auto motion_for = [&](Vec2 tangents) {
+    const LightSource source = offset_source(LightSource{middle}, tangents);
+    return ghost_motion(steps, {3, 11}, source, LightWindows(lens, source));
+  };
+  // Lights over the sun's disc: at its right, the stop's coordinates follow the middle ray less and less.
+  for (const double right : {-0.004, -0.003, -0.002, 0.0, 0.002, 0.004}) {
+    CAPTURE(right);
+    constexpr double kStep = 2e-4;  // tangent
+    const GhostMotion here = motion_for({right, 0.0});
+    const Vec2 by_right = (motion_for({right + kStep, 0.0}).centroid_mm - here.centroid_mm) * (1.0 / kStep),
+               by_up = (motion_for({right, kStep}).centroid_mm - here.centroid_mm) * (1.0 / kStep);
+    const double seen = length(by_right) + length(by_up), found = length(here.shift_mm.x) + length(here.shift_mm.y);
+    REQUIRE(here.is_open);
+    CHECK(found < 6.0 * seen);
+    CHECK(found > seen / 6.0);
+  }
+}

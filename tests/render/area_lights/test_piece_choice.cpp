@@ -160,7 +160,7 @@ TEST_CASE("a ghost that no map fits does not change to another ghost's blur as i
   light.radius_rad = kSunRadius_rad;
   const LightPiece piece = pieces_of(light).front();
   const double own = map_error(torn, torn.px, piece, 1.0), shared = map_error(torn, wide.px, piece, 1.0);
-  const double seen = map_difference(torn, torn.px, wide.px, piece, 1.0);
+  const double seen = map_error(as_drawn(torn), wide.px, piece, 1.0);
   CHECK(seen > 2.0 * (shared - own));
   const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&torn, 0, 1}};
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 0.9 * seen).clusters.size() == 2);
