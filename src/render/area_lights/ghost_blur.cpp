@@ -180,6 +180,21 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, 
   }
 }
 
+// The area over which the light of a blurred ghost is spread: its flux over the mean level, weighted by light. Most
+// of a ghost's light may be in a small part of its size. Each part of the pupil alone would make a ghost of the area
+// flux / density, which the blur enlarges.
+double area_of(const GhostBlur& ghost, const GhostMotion& motion, double value) {
+  const double blurred_px = std::numbers::pi * ghost.blur_px.x * ghost.blur_px.y + 1.0;
+  double level = 0.0, all = 0.0;
+  for (const GhostLine& f : motion.lines) {
+    if (f.is_border || !(f.density > 0.0)) continue;
+    level += f.fraction / (ghost.flux / (f.density * value) + blurred_px);
+    all += f.fraction;
+  }
+  if (!(level > 0.0)) return std::numbers::pi * ghost.size_px.x * ghost.size_px.y + blurred_px;
+  return all / level;
+}
+
 // Sets the radii of the blur that a map produces.
 void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
   ghost.blur_px = radii_of(mapped_covariance(ghost.px, piece.covariance));
@@ -188,7 +203,6 @@ void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
     ghost.px = ghost.px * (largest / ghost.blur_px.y);
     ghost.blur_px = ghost.blur_px * (largest / ghost.blur_px.y);
   }
-  ghost.area_px = std::numbers::pi * (ghost.size_px.x * ghost.size_px.y + ghost.blur_px.x * ghost.blur_px.y) + 1.0;
 }
 
 }  // namespace
@@ -208,6 +222,7 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   ghost.flux = motion.flux_mm2 * value / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
   ghost.px = middle;
   set_blur(ghost, piece, frame);
+  ghost.area_px = area_of(ghost, motion, value);
   set_lines(ghost, motion, frame, shift_mm, value);
   ghost.px = map_through(ghost, piece, middle);
   ghost.motion_px = ghost.px;
@@ -215,6 +230,7 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   // A disc is the same rotated and mirrored, so that the map's symmetric factor is sufficient.
   if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
   set_blur(ghost, piece, frame);
+  ghost.area_px = area_of(ghost, motion, value);
   // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
   if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
   return ghost;
