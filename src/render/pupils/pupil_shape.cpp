@@ -21,9 +21,6 @@ constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  
 constexpr std::size_t kBounds = kMaxStopCrossings + 1;  // kRims is the last
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
-// The grids missed the pupil if the last one's area is less than this part of the area of the box that a search finds.
-// Else they are kept, because the search's box changes by whole cells from one light to the next.
-constexpr double kMissed = 0.1;
 constexpr int kMinGrids = 2, kMaxGrids = 4;
 // A bound counts at a border if the excess over it is less than the largest one by no more than this part of the
 // change of the excess over the triangle.
@@ -289,7 +286,8 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
   Traced traced = trace_grids(grid, grid.box());
   if (traced.first_open < kFew) {
     const auto searched = searched_box(steps, ghost, light, window);
-    if (searched && (traced.open == 0 || area_of(grid.box()) < kMissed * area_of(*searched)))
+    // What the grids closed in on may be a part of the pupil only.
+    if (searched && (traced.open == 0 || area_of(grid.box()) < area_of(*searched)))
       traced = trace_grids(grid, *searched);
   }
   if (traced.open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
