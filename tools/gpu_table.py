@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Time frames on a device against the CPU: the one table of docs/gpu.md, on any machine.
+"""Time frames on a device against the CPU: a table for docs/gpu.md, on any machine.
 
     gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...]
 
