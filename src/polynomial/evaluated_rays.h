@@ -10,7 +10,7 @@
 
 namespace contrejour::inline internal::polynomial {
 
-// Over the widest stop: rays beyond it are in a fit (positions up to 1.2 of it), but count less the farther out they are.
+// Over the widest stop: rays beyond it are in a fit (positions up to 1.2), but count less the farther out they are.
 inline constexpr double kWidestStop = 1.03;
 
 // From a ghost's zone to its mirror image, and back.
