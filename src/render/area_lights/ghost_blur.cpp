@@ -180,19 +180,19 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, 
   }
 }
 
-// The area over which the light of a blurred ghost is spread: its flux over the mean level, weighted by light. Most
-// of a ghost's light may be in a small part of its size. Each part of the pupil alone would make a ghost of the area
-// flux / density, which the blur enlarges.
+// The area over which the light of a blurred ghost is spread: its flux over the mean level, weighted by light. Most of
+// a ghost's light may be in a small part of its extent. Each part of the pupil alone would make a ghost of the area
+// flux / density, which the blur enlarges; where the ghost is folded, its parts overlap, and the extent is smaller.
 double area_of(const GhostBlur& ghost, const GhostMotion& motion, double value) {
   const double blurred_px = std::numbers::pi * ghost.blur_px.x * ghost.blur_px.y + 1.0;
+  const double extent_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y + blurred_px;
   double level = 0.0, all = 0.0;
   for (const GhostLine& f : motion.lines) {
     if (f.is_border || !(f.density > 0.0)) continue;
     level += f.fraction / (ghost.flux / (f.density * value) + blurred_px);
     all += f.fraction;
   }
-  if (!(level > 0.0)) return std::numbers::pi * ghost.size_px.x * ghost.size_px.y + blurred_px;
-  return all / level;
+  return level > 0.0 ? std::min(all / level, extent_px) : extent_px;
 }
 
 // Sets the radii of the blur that a map produces.

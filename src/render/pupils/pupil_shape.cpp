@@ -286,7 +286,7 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
   Traced traced = trace_grids(grid, grid.box());
   if (traced.first_open < kFew) {
     const auto searched = searched_box(steps, ghost, light, window);
-    // What the grids closed in on may be a part of the pupil only.
+    // The grids may have closed in on a part of the pupil only.
     if (searched && (traced.open == 0 || area_of(grid.box()) < area_of(*searched)))
       traced = trace_grids(grid, *searched);
   }
