@@ -24,8 +24,8 @@ struct GhostLine {
 
 struct GhostMotion {
   // The motion on the sensor in mm for lights a unit to the right and up (tangents, offset_direction), through the same
-  // point of whatever bounds the ghost: at the ray in the middle of the pupil, and at most twice that of the fastest line
-  // of the border.
+  // point of whatever bounds the ghost: at the ray in the middle of the pupil, and at most twice that of the border's
+  // fastest line.
   LinearMap shift_mm = kZeroMap;
   LinearMap spread_mm = kZeroMap;  // image, in sensor mm, of the unit circle: an ellipse as large as the ghost
   Vec2 centroid_mm;  // of the light
