@@ -205,6 +205,15 @@ void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
   }
 }
 
+// Nothing in a blurred ghost is brighter than if all its light came from one point: its flux times the peak of the
+// blur's kernel. In a spot much smaller than its blur, the sharp ghost's lines are far brighter than that.
+void limit_lines(GhostBlur& ghost, const LightPiece& piece) {
+  const double over_disc = piece.is_disc ? 1.0 : 2.0;  // a kernel's peak over that of a disc as wide; soft pieces' is 2
+  const double blurred_px = std::numbers::pi * ghost.blur_px.x * ghost.blur_px.y;
+  if (!(blurred_px > 0.0)) return;
+  for (BlurredLine& f : ghost.lines) f.height = std::min(f.height, over_disc * ghost.flux / blurred_px);
+}
+
 }  // namespace
 
 Vec2 radii_of(const LinearMap& covariance) {
@@ -231,6 +240,7 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
   set_blur(ghost, piece, frame);
   ghost.area_px = area_of(ghost, motion, value);
+  limit_lines(ghost, piece);
   // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
   if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
   return ghost;

@@ -15,18 +15,18 @@
 namespace contrejour::inline internal::pupils {
 namespace {
 
-constexpr int kSide = 13;  // rays along a side of a grid: odd, so that one row runs along the middle
-constexpr std::size_t kRays = static_cast<std::size_t>(kSide) * kSide;
-constexpr std::size_t kToMiddle = static_cast<std::size_t>(kSide / 2) * kSide;  // rays before the middle row
+constexpr std::size_t kSide = 13;  // rays along a side of a grid: odd, so that one row runs along the middle
+constexpr std::size_t kFineSide = 25;  // the same for a pupil so narrow that few rays get through
+constexpr std::size_t kFineRays = kFineSide * kFineSide;
 constexpr std::size_t kBounds = kMaxStopCrossings + 1;  // kRims is the last
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
+constexpr int kNarrow = 60;  // rays that get through: with fewer the shape is measured with a fine grid
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
 constexpr int kMinGrids = 2, kMaxGrids = 4;
 // A bound counts at a border if the excess over it is less than the largest one by no more than this part of the
 // change of the excess over the triangle.
 constexpr double kClose = 0.1;
 constexpr std::size_t kBlocks = 4;  // along a side of the grid: each gives a point of the interior, and of each border
-constexpr std::size_t kBlockCells = (kSide - 1) / kBlocks;
 
 float length(std::array<float, 2> p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
 
@@ -37,11 +37,13 @@ class HalvedGrid {
       : rays_(PacketPath(steps, ghost, {{0.0, 0.0, window.z_mm}, light.source})), symmetric_(light.symmetric),
         box_{window.min_mm, window.max_mm} {}
 
-  void trace(const Rectangle& box) {
+  // side: rays along a side, kSide or kFineSide.
+  void trace(const Rectangle& box, std::size_t side) {
     box_ = box;
-    cell_ = (box.high - box.low) * (1.0 / (kSide - 1));
-    first_ = symmetric_ && box.low.y == -box.high.y ? kToMiddle : 0;
-    rays_.resize(kRays - first_);
+    side_ = side;
+    cell_ = (box.high - box.low) * (1.0 / (static_cast<double>(side) - 1.0));
+    first_ = symmetric_ && box.low.y == -box.high.y ? side / 2 * side : 0;  // that of the middle row
+    rays_.resize(count() - first_);
     const std::span<float> x_mm = rays_.x_mm(), y_mm = rays_.y_mm();
     for (std::size_t k = 0; k < rays_.count(); ++k) {
       const Vec2 from = start(first_ + k) - box.low;
@@ -62,9 +64,22 @@ class HalvedGrid {
   }
 
   [[nodiscard]] const Rectangle& box() const { return box_; }
+  [[nodiscard]] std::size_t side() const { return side_; }
+  [[nodiscard]] std::size_t count() const { return side_ * side_; }
+  [[nodiscard]] int open_rays() const {
+    int open = 0;
+    for (std::size_t k = 0; k < count(); ++k) open += is_open(k) ? 1 : 0;
+    return open;
+  }
+  [[nodiscard]] std::size_t least_blocked() const {
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < count(); ++k)
+      if (outside(k) < outside(least)) least = k;
+    return least;
+  }
   [[nodiscard]] Vec2 cell() const { return cell_; }
   [[nodiscard]] Vec2 start(std::size_t k) const {
-    const std::size_t column = k % kSide, row = k / kSide;
+    const std::size_t column = k % side_, row = k / side_;
     return box_.low + Vec2{static_cast<double>(column) * cell_.x, static_cast<double>(row) * cell_.y};
   }
   // The excess of a ray over the bound that it comes closest to or is blocked by, relative to that bound's radius.
@@ -88,7 +103,7 @@ class HalvedGrid {
  private:
   // The index of the results for a ray, or for its mirror image.
   [[nodiscard]] std::size_t traced(std::size_t k) const {
-    return k >= first_ ? k - first_ : (kSide - 1 - k / kSide) * kSide + k % kSide - first_;
+    return k >= first_ ? k - first_ : (side_ - 1 - k / side_) * side_ + k % side_ - first_;
   }
   [[nodiscard]] std::array<float, 2> stop(int crossing, std::size_t ray) const {
     return rays_.in_circle(static_cast<std::size_t>(1 + crossing), ray);
@@ -98,9 +113,10 @@ class HalvedGrid {
   bool symmetric_;
   Rectangle box_;
   Vec2 cell_;
+  std::size_t side_ = kSide;
   std::size_t first_ = 0;  // index of the first ray that is traced
-  std::array<float, kRays> outside_{};
-  std::array<std::array<float, kBounds>, kRays> outside_by_{};
+  std::array<float, kFineRays> outside_{};
+  std::array<std::array<float, kBounds>, kFineRays> outside_by_{};
 };
 
 // A box around the open parts of all lines of the grid, or else around the ray that is blocked least; empty where all
@@ -117,13 +133,12 @@ std::optional<Rectangle> next_box(const HalvedGrid& grid) {
     const double from = grid.excess(a), to = grid.excess(b);
     include(grid.start(a) + (grid.start(b) - grid.start(a)) * (from / (from - to)));
   };
-  std::size_t least_blocked = 0;
-  for (std::size_t k = 0; k < kRays; ++k) {
-    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
+  for (std::size_t k = 0; k < grid.count(); ++k) {
     if (grid.is_open(k)) include(grid.start(k));
-    if (k % kSide + 1 < kSide) include_crossing(k, k + 1);
-    if (k + kSide < kRays) include_crossing(k, k + kSide);
+    if (k % grid.side() + 1 < grid.side()) include_crossing(k, k + 1);
+    if (k + grid.side() < grid.count()) include_crossing(k, k + grid.side());
   }
+  const std::size_t least_blocked = grid.least_blocked();
   if (!hull && std::isfinite(grid.outside(least_blocked))) include(grid.start(least_blocked));
   if (!hull) return hull;
   *hull = {hull->low - grid.cell(), hull->high + grid.cell()};
@@ -158,9 +173,8 @@ struct Traced {
 Traced trace_grids(HalvedGrid& grid, std::optional<Rectangle> box) {
   Traced traced;
   for (int k = 0; k < kMaxGrids && box && (k < kMinGrids || traced.open < kEnough); ++k) {
-    grid.trace(*box);
-    traced.open = 0;
-    for (std::size_t ray = 0; ray < kRays; ++ray) traced.open += grid.is_open(ray) ? 1 : 0;
+    grid.trace(*box, kSide);
+    traced.open = grid.open_rays();
     if (k == 0) traced.first_open = traced.open;
     box = next_box(grid);
   }
@@ -171,9 +185,10 @@ Traced trace_grids(HalvedGrid& grid, std::optional<Rectangle> box) {
 class PupilSum {
  public:
   explicit PupilSum(const HalvedGrid& grid) : grid_(grid) {
-    for (std::size_t row = 0; row + 1 < kSide; ++row)
-      for (std::size_t column = 0; column + 1 < kSide; ++column)
-        add_cell(row * kSide + column, (row / kBlockCells) * kBlocks + column / kBlockCells);
+    const std::size_t cells = grid.side() - 1, in_block = cells / kBlocks;
+    for (std::size_t row = 0; row < cells; ++row)
+      for (std::size_t column = 0; column < cells; ++column)
+        add_cell(row * grid.side() + column, (row / in_block) * kBlocks + column / in_block);
   }
 
   [[nodiscard]] PupilShape pupil() const {
@@ -213,7 +228,7 @@ class PupilSum {
 
   // A cell is halved along both diagonals, so that a pupil and its mirror image measure the same.
   void add_cell(std::size_t first, std::size_t block) {
-    const std::array<std::size_t, 4> corner{first, first + 1, first + kSide + 1, first + kSide};
+    const std::array<std::size_t, 4> corner{first, first + 1, first + grid_.side() + 1, first + grid_.side()};
     const auto open = std::ranges::count_if(corner, [&](std::size_t k) { return grid_.is_open(k); });
     for (std::size_t k = 0; open > 0 && k < 4; ++k)
       add_triangle({corner[k], corner[(k + 1) % 4], corner[(k + 2) % 4]}, blocks_[block]);
@@ -290,10 +305,9 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
     if (searched && (traced.open == 0 || area_of(grid.box()) < area_of(*searched)))
       traced = trace_grids(grid, *searched);
   }
+  if (traced.open > 0 && traced.open < kNarrow) grid.trace(Rectangle{grid.box()}, kFineSide);
   if (traced.open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
-  std::size_t least_blocked = 0;
-  for (std::size_t k = 0; k < kRays; ++k)
-    if (grid.outside(k) < grid.outside(least_blocked)) least_blocked = k;
+  const std::size_t least_blocked = grid.least_blocked();
   if (!std::isfinite(grid.outside(least_blocked))) return std::nullopt;
   PupilShape pupil;
   pupil.outside = grid.outside(least_blocked);

@@ -58,3 +58,16 @@ TEST_CASE("the level of a ghost with most of its light in one place is not that 
   const double expected = 2.0 / 3.0 * flux_px / (std::numbers::pi * blur_px * blur_px + 1.0);
   CHECK(level_of(motion_with({bright, bright, faint})) == test::approx(expected).epsilon(0.02));
 }
+
+TEST_CASE("a line of a spot is no brighter than all of the spot's light blurred") {
+  const Frame frame{160, 90, 0, 0, 160, 90, kPitch_mm};
+  GhostMotion spot = motion_with({1e6, 1e6});
+  spot.spread_mm = LinearMap{} * 0.1;  // a radius of one pixel, blurred to four
+  spot.lines.push_back({{0.0, 1.0}, {0.0, 100.0}, {}, 1e6, true, 0.1});
+  const LightPiece piece = pieces_of(disc()).front();
+  const GhostBlur ghost = blur_of(spot, piece, frame, {}, 1.0);
+  const double flux_px = 0.01 / (kPitch_mm * kPitch_mm), blur_px = 100.0 * std::tan(kRadius_rad) / kPitch_mm;
+  REQUIRE(ghost.lines.size() == 3);
+  for (const BlurredLine& line : ghost.lines)
+    CHECK(line.height == test::approx(flux_px / (std::numbers::pi * blur_px * blur_px)).epsilon(0.01));
+}

@@ -108,7 +108,7 @@ TEST_CASE("a pupil of two parts is found whole while its light moves") {
     const LightSource source{direction_for_image_point(lens, at_mm, lens.design_wavelength_nm)};
     const double flux_mm2 = ghost_motion(steps, {9, 22}, source, LightWindows(lens, source)).flux_mm2;
     REQUIRE(flux_mm2 > 0.0);
-    if (step > 0) CHECK(std::abs(flux_mm2 / last_mm2 - 1.0) < 0.2);
+    if (step > 0) CHECK(std::abs(flux_mm2 / last_mm2 - 1.0) < 0.05);
     last_mm2 = flux_mm2;
   }
 }
