@@ -12,7 +12,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 // The squared error that lights may make by being divided too coarsely, over the frame's squared error.
-constexpr double kPiecesFraction = 1.6;
+constexpr double kPiecesFraction = 1.2;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
 

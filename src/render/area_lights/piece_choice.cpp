@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -50,8 +49,10 @@ double dimmed_error(const GhostBlur& ghost, double flux_change, double peak) {
   return off * off * ghost.area_px;
 }
 
-// How errors fall with the number of pieces across: as this power of it, measured as 9 dB for each doubling.
-constexpr double kSquaresPower = 3.0, kFluxPower = 2.0;
+// How errors fall with the number of pieces across: as n^-3, measured as 9 dB for each doubling, and as n^-2 for the
+// flux.
+double left_of(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
+double flux_left_of(double flux_error, int across) { return flux_error / (static_cast<double>(across) * across); }
 
 }  // namespace
 
@@ -117,69 +118,71 @@ int finer_than(int across) { return *std::ranges::upper_bound(kAcross, across); 
 
 namespace {
 
-struct Division {
-  int across = 1;
-  double finer = 0.0;  // the part of the light that is drawn with the next finer one
+// A ghost's divisions: the error that each of kAcross leaves, and what the next finer one saves for each further piece.
+struct Divisions {
+  std::array<double, kAcross.size()> left{};
+  std::array<double, kAcross.size() - 1> gain{};
+  double from = 0.0;  // a place among kAcross, and the part of the next one: no coarser ones are chosen
+
+  // The place at which the ghost is divided if steps are worth making from this gain on. A step is made in part over
+  // a range of gains, so that no ghost's division depends on the others' order.
+  [[nodiscard]] double at(double least_gain) const {
+    constexpr double kWholeStep = 3.0;  // times the least gain
+    double place = 0.0;
+    for (const double one : gain) {
+      const double part = std::clamp((one / least_gain - 1.0) / (kWholeStep - 1.0), 0.0, 1.0);
+      place += part;
+      if (part < 1.0) break;
+    }
+    return std::max(place, from);
+  }
+  // The error there. What the finest division leaves does not count: other ghosts need not compensate for it.
+  [[nodiscard]] double error(double place) const {
+    const std::size_t k = std::min(static_cast<std::size_t>(place), gain.size() - 1);
+    return std::lerp(left[k], left[k + 1], place - static_cast<double>(k)) - left.back();
+  }
 };
 
-// About so many pieces across.
-Division division(double pieces) {
-  constexpr double kHeld = 0.1;  // so near to a whole number only that one is drawn: a mixture takes more pieces
-  if (pieces >= kAcross.back()) return {kAcross.back(), 0.0};
-  const auto finer = std::ranges::upper_bound(kAcross, pieces);
-  const int across = *std::prev(finer);
-  const double part = (pieces - across) / (*finer - across);
-  return {across, std::clamp((part - kHeld) / (1.0 - 2.0 * kHeld), 0.0, 1.0)};
-}
-
-// The fraction of the error that is left.
-double left_by(const Division& made, double power) {
-  const double here = std::pow(made.across, -power);
-  return made.finer > 0.0 ? std::lerp(here, std::pow(finer_than(made.across), -power), made.finer) : here;
-}
-
-// Raises the numbers of pieces across of all ghosts until together they leave the error allowed, with one common gain
-// for each piece. The numbers are real ones, because with whole ones the gain would jump: an error of one ghost that
-// changes a little would change the divisions of all others.
-void refine(std::span<double> across, std::span<const GhostOfArea> ghosts, double allowed, double power,
-            double GhostOfArea::* error) {
+// Sets the divisions that together leave the error allowed: those above one common gain for each piece.
+template <class Left>
+void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
   constexpr int kBisections = 50;
   constexpr double kRange = 1e-12;  // of the largest gain
-  // From this number on, further pieces save less than this gain each.
-  const auto worth = [&](std::size_t g, double least_gain) {
-    const double pieces = std::pow(0.5 * power * ghosts[g].*error / least_gain, 1.0 / (power + 2.0));
-    return std::clamp(pieces, across[g], static_cast<double>(kAcross.back()));
-  };
-  // What the finest division leaves does not count: other ghosts need not compensate for it.
-  const double least = left_by({kAcross.back(), 0.0}, power);
-  const auto left = [&](double least_gain) {
+  std::vector<Divisions> divisions(ghosts.size());
+  double largest = 0.0;
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    Divisions& one = divisions[g];
+    one.from = static_cast<double>(std::ranges::find(kAcross, ghosts[g].across) - kAcross.begin()) + ghosts[g].finer;
+    for (std::size_t k = 0; k < kAcross.size(); ++k) one.left[k] = left(ghosts[g], kAcross[k]);
+    for (std::size_t k = 0; k < one.gain.size(); ++k)
+      one.gain[k] = (one.left[k] - one.left[k + 1]) / (kAcross[k + 1] * kAcross[k + 1] - kAcross[k] * kAcross[k]);
+    largest = std::max(largest, one.gain.front());
+  }
+  const auto error = [&](double least_gain) {
     double sum = 0.0;
-    for (std::size_t g = 0; g < ghosts.size(); ++g)
-      if (ghosts[g].*error > 0.0) sum += ghosts[g].*error * (left_by(division(worth(g, least_gain)), power) - least);
+    for (const Divisions& one : divisions) sum += one.error(one.at(least_gain));
     return sum;
   };
-  double largest = 0.0;
-  for (const GhostOfArea& ghost : ghosts) largest = std::max(largest, 0.5 * power * ghost.*error);
-  if (!(largest > 0.0) || left(largest) <= allowed) return;
+  if (!(largest > 0.0) || error(largest) <= allowed) return;
   double few = largest, many = kRange * largest;
   for (int k = 0; k < kBisections; ++k) {
     const double middle = std::sqrt(few * many);
-    (left(middle) > allowed ? few : many) = middle;
+    (error(middle) > allowed ? few : many) = middle;
   }
-  for (std::size_t g = 0; g < ghosts.size(); ++g) across[g] = worth(g, many);
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    const double place = divisions[g].at(many);
+    const std::size_t k = std::min(static_cast<std::size_t>(place), kAcross.size() - 1);
+    ghosts[g].across = kAcross[k];
+    ghosts[g].finer = place - static_cast<double>(k);
+  }
 }
 
 }  // namespace
 
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
-  std::vector<double> across(ghosts.size(), 1.0);
-  refine(across, ghosts, budget.squares, kSquaresPower, &GhostOfArea::squares);
-  refine(across, ghosts, kFluxAllowed * budget.flux, kFluxPower, &GhostOfArea::flux_error);
-  for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    const Division made = division(across[g]);
-    ghosts[g].across = made.across;
-    ghosts[g].finer = made.finer;
-  }
+  refine(ghosts, budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
+  refine(ghosts, kFluxAllowed * budget.flux,
+         [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_error, across); });
 }
 
 }  // namespace contrejour::inline internal::area

@@ -46,9 +46,9 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
 // The next finer division: pieces across.
 [[nodiscard]] int finer_than(int across);
 
-// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with about the fewest pieces.
-// The best number of pieces across is a real one, and a ghost is drawn with the divisions on both sides of it: so it
-// fades from one into the next as its light moves, and neither jumps nor makes others jump.
+// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with about the fewest pieces. A
+// step that is hardly worth making is made in part: so a ghost fades from one division into the next as its light
+// moves, and neither jumps nor makes others jump.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
 }  // namespace contrejour::inline internal::area

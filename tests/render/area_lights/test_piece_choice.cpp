@@ -69,20 +69,6 @@ TEST_CASE("as a ghost's error falls, its division and all others' change steadil
   }
 }
 
-TEST_CASE("a ghost's error that jumps hardly changes how others are divided") {
-  // As of the Canon at 200 mm and f/32 with the sun: ghost 3-11, and an error that changes by a factor of 7 between
-  // successive frames. Between steps of whole numbers, the light of 3-11 passed from 3.4 to 3 pieces across.
-  const auto pieces = [](const GhostOfArea& ghost) {
-    return ghost.finer > 0.0 ? std::lerp(ghost.across, finer_than(ghost.across), ghost.finer) : ghost.across;
-  };
-  for (const double allowed : {0.5, 0.6, 0.7, 0.8}) {
-    CAPTURE(allowed);
-    const auto many = divided({12.5, 0.48, 0.07, 0.035, 0.025, 4.3}, allowed),
-               few = divided({12.5, 0.48, 0.07, 0.035, 0.025, 0.64}, allowed);
-    CHECK(std::abs(pieces(many.front()) - pieces(few.front())) < 0.25);
-  }
-}
-
 TEST_CASE("lines of a ghost that come and go do not change the ghost's blur at once") {
   struct Case {
     const char* lens;
