@@ -38,7 +38,7 @@ class Grouping {
 
   void add(std::size_t index, const PieceGhost& one) {
     const double own = map_error(*one.blur, one.blur->px, piece_, peak_);
-    Group* group = group_for(one, as_drawn(*one.blur), own);
+    Group* group = group_for(one, as_drawn(*one.blur, piece_), own);
     if (group == nullptr) {
       const bool is_sharp = map_error(*one.blur, kZeroMap, piece_, peak_) - own <= kSharpFraction * allowed_;
       group = &groups.emplace_back(Group{is_sharp, is_sharp ? 0 : one.level, index, one.blur->px, one.spot, {}});
@@ -69,9 +69,12 @@ class Grouping {
       if (!(enough >= 0.0)) continue;
       const LinearMap& map = group.is_sharp ? kZeroMap : group.map;
       // A ghost that its own map fits badly may fit another's as well, but changes visibly between the two.
-      const double change = map_error(drawn, map, piece_, peak_, enough);
-      if (change > enough) continue;
-      const double error = std::max(map_error(*one.blur, map, piece_, peak_, own + enough) - own, change) + coarse;
+      const double enough_of_one = enough / one.overlapping,
+                   change = map_error(drawn, map, piece_, peak_, enough_of_one);
+      if (change > enough_of_one) continue;
+      const double error =
+          std::max(map_error(*one.blur, map, piece_, peak_, own + enough_of_one) - own, change) * one.overlapping +
+          coarse;
       const double cost = error / allowed_ + pixels_cost;
       if (!(error <= limit && cost < cheapest)) continue;
       cheapest = cost;

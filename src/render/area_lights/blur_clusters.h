@@ -18,6 +18,7 @@ struct PieceGhost {
   const GhostBlur* blur = nullptr;
   int level = 0;
   std::size_t spot = 0;  // if negative: ghosts of one spot, in pieces of one light, share that window
+  double overlapping = 1.0;  // ghosts of other pieces of the same light, and this one, that overlap: errors add up
 };
 
 struct BlurCluster {

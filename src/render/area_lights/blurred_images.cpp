@@ -60,15 +60,20 @@ class Jobs {
     if (is_whole) job.piece = std::make_shared<const LightPiece>(light.parts.pieces.front());
     job.is_point = job.piece->samples.empty();
     std::vector<int> fine;
-    for (std::size_t g = 0; g < levels.size(); ++g)
+    std::vector<double> overlapping;
+    for (std::size_t g = 0; g < levels.size(); ++g) {
       fine.push_back(spot_level(light.wholes[g].over(peak_), levels[g], spot_squares_));
+      double all_px = 0.0;
+      for (const std::vector<GhostBlur>& blurs : light.blurs) all_px += blurs[g].area_px;
+      overlapping.push_back(std::clamp(all_px / light.wholes[g].area_px, 1.0, static_cast<double>(light.blurs.size())));
+    }
     for (std::size_t p = 0; p < light.parts.pieces.size(); ++p) {
       for (std::size_t g = 0; g < light.ghosts.size(); ++g) {
         const GhostBlur* blur = &light.blurs[p][g];
         if (!is_whole) blur = &softened_.emplace_back(softened(*blur, light.parts.pieces[p]));
         job.planned.push_back(planned(light.parts.planned[p], light.light_fractions[g]));
         job.ghost.push_back(light.ghosts[g]);
-        job.pairs.push_back({blur, fine[g], spots_.size() + g});
+        job.pairs.push_back({blur, fine[g], spots_.size() + g, overlapping[g]});
       }
     }
     for (const GhostBlur& whole : light.wholes) spots_.push_back(&whole);

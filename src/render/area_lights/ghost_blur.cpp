@@ -5,17 +5,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numbers>
 #include <utility>
+
+#include "render/area_lights/ghost_area.h"
 
 namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kLargestBlur = 3.0;  // diagonals of the frame: a larger blur makes no visible difference
-constexpr int kPeakCells = 40;        // across the frame: cells in which overlapping ghosts are summed
 constexpr double kBrightest = 4.0;    // level of a blurred ghost's brightest lines over its mean, at most
 constexpr double kGathered = 2.0;     // times the mean level: light brighter than this is near a caustic
+constexpr double kSteadyFit = 0.3;    // of a line's blur: smaller errors of a fit count by their squares
 constexpr int kFits = 3;              // rounds; each weights lines by the errors that the one before leaves
 constexpr double kOfMiddle = 0.02;    // weight relative to all lines, for directions that none constrains
 constexpr double kLeast = 0.08;  // the least weight of lines and middle in any direction: few lines there come and go
@@ -33,11 +34,6 @@ bool touches(const Frame& frame, Vec2 px, double radius_px) {
   return px.x > -radius_px && px.y > -radius_px && px.x < frame.width + radius_px && px.y < frame.height + radius_px;
 }
 
-// The distance from the frame's border; negative outside.
-double inside_px(const Frame& frame, Vec2 px) {
-  return std::min({px.x, px.y, frame.width - px.x, frame.height - px.y});
-}
-
 // The error of a line's blur, as a radius.
 double displacement_px(const BlurredLine& f, const LinearMap& px, const LightPiece& piece) {
   const Vec2 made = along(f.normal, px);
@@ -49,6 +45,13 @@ double displacement_px(const BlurredLine& f, const LinearMap& px, const LightPie
 double edge_width_px(const GhostBlur& ghost, const BlurredLine& f, const LightPiece& piece) {
   const double radius = 2.0 * std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0));
   return std::max(std::min(radius, ghost.size_px.x), 1e-3);
+}
+
+// The error of a blur from which on it counts linearly in a fit. If lines of two kinds move differently, a fit in which
+// all errors count linearly is undecided between them, and changes from one to the other at once.
+double linear_from_px(const GhostBlur& ghost, const BlurredLine& f, const LightPiece& piece) {
+  const double radius = 2.0 * std::sqrt(std::max(variance(f.shift_px, piece.covariance), 0.0));
+  return edge_width_px(ghost, f, piece) + kSteadyFit * radius;
 }
 
 double weight_of(const GhostBlur& ghost, const BlurredLine& f, const LightPiece& piece) {
@@ -76,8 +79,8 @@ LinearMap map_through(const GhostBlur& ghost, const LightPiece& piece, const Lin
     LinearMap squares = kZeroMap, sums = kZeroMap;  // sums: columns by the tangent
     double all = 0.0;
     for (const BlurredLine& f : ghost.lines) {
-      const double off = displacement_px(f, best, piece), width = edge_width_px(ghost, f, piece);
-      const double w = weight_of(ghost, f, piece) / (1.0 + off / width);
+      const double off = displacement_px(f, best, piece) / linear_from_px(ghost, f, piece);
+      const double w = weight_of(ghost, f, piece) / (1.0 + off);
       all += w;
       squares = squares + square_of(f.normal, w);
       sums = sums + LinearMap{f.normal * (w * f.shift_px.x), f.normal * (w * f.shift_px.y)};
@@ -135,7 +138,7 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
       const double wanted = variance(f.shift_px, piece.covariance);
       const double radius = 2.0 * std::sqrt(std::max(wanted, 0.0)),
                    made = 2.0 * std::sqrt(std::max(variance(f.normal, best), 0.0));
-      const double off = std::abs(radius - made) / edge_width_px(ghost, f, piece);
+      const double off = std::abs(radius - made) / linear_from_px(ghost, f, piece);
       // The difference of squared radii is that of the radii times their sum.
       const double w = weight_of(ghost, f, piece) / (1.0 + off) / std::max((radius + made) * (radius + made), 1e-6);
       equations.add(f.normal, wanted, w);
@@ -158,41 +161,77 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   return (can_rotate ? root * map * inverse(stretch) : root) * inverse(light);
 }
 
-// Sets the lines that reach the frame.
-void set_lines(GhostBlur& ghost, const GhostMotion& motion, const Frame& frame, Vec2 shift_mm, double value) {
-  const double outline_px = std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
-  const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
-  const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
+// The part of each line that lies in the frame.
+std::vector<double> visible_parts(const GhostBlur& ghost, const GhostMotion& motion, const Frame& frame,
+                                  Vec2 shift_mm) {
+  std::vector<double> visible;
   for (const GhostLine& f : motion.lines) {
-    const double own_px = std::max(f.fraction * outline_px, 1e-3);
+    const double own_px = std::max(f.fraction * outline_px(ghost), 1e-3);
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
     const double inside = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
-    const double visible = inside * inside * (3.0 - 2.0 * inside);
-    if (visible == 0.0) continue;
+    visible.push_back(inside * inside * (3.0 - 2.0 * inside));
+  }
+  return visible;
+}
+
+// The fraction of the pupil whose light lands in the frame.
+double visible_light(const GhostMotion& motion, const std::vector<double>& visible) {
+  double light = 0.0;
+  for (std::size_t k = 0; k < motion.lines.size(); ++k)
+    if (!motion.lines[k].is_border) light += visible[k] * motion.lines[k].fraction;
+  return light;
+}
+
+// Sets the lines that reach the frame.
+void set_lines(GhostBlur& ghost, const GhostMotion& motion, const std::vector<double>& visible, const Frame& frame,
+               Vec2 shift_mm, double value) {
+  const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
+  const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
+  for (std::size_t k = 0; k < motion.lines.size(); ++k) {
+    if (visible[k] == 0.0) continue;
+    const GhostLine& f = motion.lines[k];
     BlurredLine px;
     px.normal = mirrored(f.normal);
     px.at_px = frame.pixel_from_sensor(f.at_mm + shift_mm);
     px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
     const double density = f.density * value;
     px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), largest);
-    px.length_px = visible * own_px;
+    px.length_px = visible[k] * std::max(f.fraction * outline_px(ghost), 1e-3);
     ghost.lines.push_back(px);
   }
 }
 
-// The area over which the light of a blurred ghost is spread: its flux over the mean level, weighted by light. Most of
-// a ghost's light may be in a small part of its extent. Each part of the pupil alone would make a ghost of the area
-// flux / density, which the blur enlarges; where the ghost is folded, its parts overlap, and the extent is smaller.
-double area_of(const GhostBlur& ghost, const GhostMotion& motion, double value) {
-  const double blurred_px = std::numbers::pi * ghost.blur_px.x * ghost.blur_px.y + 1.0;
-  const double extent_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y + blurred_px;
-  double level = 0.0, all = 0.0;
-  for (const GhostLine& f : motion.lines) {
-    if (f.is_border || !(f.density > 0.0)) continue;
-    level += f.fraction / (ghost.flux / (f.density * value) + blurred_px);
-    all += f.fraction;
+// The covariance of a point's blur: by the ghost's map, and by how far the lines' own motions differ from it.
+LinearMap blur_covariance(const GhostBlur& ghost, const LightPiece& piece) {
+  double sum = 0.0, all = 0.0;
+  for (const BlurredLine& f : ghost.lines) {
+    const double weight = weight_of(ghost, f, piece);
+    sum += weight * displacement_px(f, ghost.px, piece);
+    all += weight;
   }
-  return level > 0.0 ? std::min(all / level, extent_px) : extent_px;
+  const double deviation = all > 0.0 ? 0.5 * sum / all : 0.0;
+  return mapped_covariance(ghost.px, piece.covariance) + LinearMap{} * (deviation * deviation);
+}
+
+// The parts of a ghost that its interior rays stand for, with the light that lands in the frame. If none does, all
+// light counts; a ghost without such rays is one part.
+std::vector<GhostPart> parts_of(const GhostMotion& motion, const std::vector<double>& visible, double px_by_mm) {
+  const LinearMap to_px{{-px_by_mm, 0.0}, {0.0, px_by_mm}};
+  std::vector<GhostPart> parts;
+  double all = 0.0, seen = 0.0;
+  for (std::size_t k = 0; k < motion.lines.size(); ++k) {
+    const GhostLine& f = motion.lines[k];
+    if (f.is_border) continue;
+    parts.push_back({to_px(f.at_mm), mapped_covariance(to_px, f.covariance_mm2), f.fraction});
+    all += f.fraction;
+    seen += f.fraction * visible[k];
+  }
+  if (!(all > 0.0))
+    return {{{}, mapped_covariance(to_px, motion.spread_mm * transposed(motion.spread_mm) * 0.25), 1.0}};
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < motion.lines.size(); ++k)
+    if (!motion.lines[k].is_border) parts[next++].light *= (seen > 0.0 ? visible[k] : 1.0) / all;
+  return parts;
 }
 
 // Sets the radii of the blur that a map produces.
@@ -205,13 +244,12 @@ void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
   }
 }
 
-// Nothing in a blurred ghost is brighter than if all its light came from one point: its flux times the peak of the
-// blur's kernel. In a spot much smaller than its blur, the sharp ghost's lines are far brighter than that.
-void limit_lines(GhostBlur& ghost, const LightPiece& piece) {
-  const double over_disc = piece.is_disc ? 1.0 : 2.0;  // a kernel's peak over that of a disc as wide; soft pieces' is 2
-  const double blurred_px = std::numbers::pi * ghost.blur_px.x * ghost.blur_px.y;
-  if (!(blurred_px > 0.0)) return;
-  for (BlurredLine& f : ghost.lines) f.height = std::min(f.height, over_disc * ghost.flux / blurred_px);
+// A sharp ghost's brightest lines may be kBrightest times its mean level. Blur spreads them: a spot much smaller than
+// its blur has one level. sharp_px: the area of the ghost without blur.
+void limit_lines(GhostBlur& ghost, double sharp_px, bool by_disc) {
+  const double over_disc = by_disc ? 1.0 : 2.0;  // a kernel's peak over that of a disc as wide; soft pieces' is 2
+  const double over_mean = std::lerp(over_disc, kBrightest, std::min(sharp_px / ghost.area_px, 1.0));
+  for (BlurredLine& f : ghost.lines) f.height = std::min(f.height, over_mean * ghost.flux / ghost.area_px);
 }
 
 }  // namespace
@@ -219,6 +257,15 @@ void limit_lines(GhostBlur& ghost, const LightPiece& piece) {
 Vec2 radii_of(const LinearMap& covariance) {
   const Vec2 e = eigenvalues(covariance);
   return {2.0 * std::sqrt(std::max(e.x, 0.0)), 2.0 * std::sqrt(std::max(e.y, 0.0))};
+}
+
+// The distance from the frame's border; negative outside.
+double inside_px(const Frame& frame, Vec2 px) {
+  return std::min({px.x, px.y, frame.width - px.x, frame.height - px.y});
+}
+
+double outline_px(const GhostBlur& ghost) {
+  return std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
 }
 
 GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Frame& frame, Vec2 shift_mm, double value) {
@@ -231,16 +278,20 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   ghost.flux = motion.flux_mm2 * value / (frame.pixel_pitch_mm * frame.pixel_pitch_mm);
   ghost.px = middle;
   set_blur(ghost, piece, frame);
-  ghost.area_px = area_of(ghost, motion, value);
-  set_lines(ghost, motion, frame, shift_mm, value);
+  const std::vector<double> visible = visible_parts(ghost, motion, frame, shift_mm);
+  const std::vector<GhostPart> parts = parts_of(motion, visible, 1.0 / frame.pixel_pitch_mm);
+  ghost.visible = visible_light(motion, visible);
+  ghost.area_px = light_area_px(parts, mapped_covariance(ghost.px, piece.covariance));
+  set_lines(ghost, motion, visible, frame, shift_mm, value);
   ghost.px = map_through(ghost, piece, middle);
   ghost.motion_px = ghost.px;
   if (piece.is_symmetric) ghost.px = map_as_wide(ghost, piece, ghost.px);
   // A disc is the same rotated and mirrored, so that the map's symmetric factor is sufficient.
   if (piece.is_disc) ghost.px = square_root(ghost.px * transposed(ghost.px));
   set_blur(ghost, piece, frame);
-  ghost.area_px = area_of(ghost, motion, value);
-  limit_lines(ghost, piece);
+  const LinearMap blur = blur_covariance(ghost, piece);
+  ghost.area_px = light_area_px(parts, blur);
+  limit_lines(ghost, light_area_px(parts, kZeroMap), piece.is_disc);
   // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
   if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
   return ghost;
@@ -272,80 +323,22 @@ double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& 
   return squares;
 }
 
-GhostBlur as_drawn(GhostBlur ghost) {
+GhostBlur as_drawn(GhostBlur ghost, const LightPiece& piece) {
+  constexpr int kNormals = 6;
   for (BlurredLine& f : ghost.lines) f.shift_px = along(f.normal, ghost.px);
+  // The outline of the blur itself, which a spot shows in all directions, whatever the directions of its own lines.
+  const Vec2 radii = radii_of(blur_covariance(ghost, piece));
+  for (int k = 0; k < kNormals; ++k) {
+    const double angle = k * std::numbers::pi / kNormals;
+    BlurredLine f;
+    f.normal = {std::cos(angle), std::sin(angle)};
+    f.at_px = ghost.at_px;
+    f.shift_px = along(f.normal, ghost.px);
+    f.height = ghost.flux / ghost.area_px;
+    f.length_px = ghost.visible * std::numbers::pi * (radii.x + radii.y) / kNormals;
+    ghost.lines.push_back(f);
+  }
   return ghost;
-}
-
-namespace {
-
-// A ghost's mean level in a cell at some distance of its middle, over its own level; lengths in cells. It fades over a
-// cell's width, so that the sums change steadily as the ghost moves.
-double coverage(double distance, double radius) {
-  return std::clamp(radius - distance + 0.5, 0.0, 1.0) * std::min(std::numbers::pi * radius * radius, 1.0);
-}
-
-// The value that this fraction of all values reaches, or a little less: by linear interpolation between neighbours in
-// their order.
-double reached_by(std::vector<double> values, double fraction) {
-  const double at = std::max((1.0 - fraction) * static_cast<double>(values.size() - 1) - 1.0, 0.0);
-  const auto below = static_cast<std::ptrdiff_t>(at);
-  const auto nth = values.begin() + below;
-  std::nth_element(values.begin(), nth, values.end());
-  if (nth + 1 == values.end()) return *nth;
-  return std::lerp(*nth, *std::min_element(nth + 1, values.end()), at - static_cast<double>(below));
-}
-
-// The area of a blurred ghost that lies in the frame: of one as large across the frame's nearest border as across its
-// longer axis. It is not quite 0 elsewhere, so that ghosts count if there are no others.
-double visible_px(const GhostBlur& ghost, const Frame& frame) {
-  constexpr double kLeast = 1e-6;
-  const double radius_px = std::hypot(ghost.size_px.y, ghost.blur_px.y) + 0.5;
-  const double inside = std::clamp(0.5 + 0.5 * inside_px(frame, ghost.at_px) / radius_px, 0.0, 1.0);
-  return ghost.area_px * std::max(inside * inside * (3.0 - 2.0 * inside), kLeast);
-}
-
-// The level of the brightest ghosts that together fill about this area of the frame: the mean from half of it to one
-// and a half times as much, which changes steadily as ghosts become brighter or enter the frame.
-double brightest_over(const std::vector<GhostBlur>& ghosts, const Frame& frame, double area_px) {
-  std::vector<const GhostBlur*> by_level;
-  for (const GhostBlur& ghost : ghosts)
-    if (ghost.level > 0.0) by_level.push_back(&ghost);
-  std::ranges::stable_sort(by_level, std::greater(), &GhostBlur::level);
-  const double from_px = 0.5 * area_px, to_px = 1.5 * area_px;
-  double filled_px = 0.0, light = 0.0, counted_px = 0.0;
-  for (const GhostBlur* ghost : by_level) {
-    const double end_px = filled_px + visible_px(*ghost, frame);
-    const double within_px = std::max(std::min(end_px, to_px) - std::max(filled_px, from_px), 0.0);
-    light += ghost->level * within_px;
-    counted_px += within_px;
-    filled_px = end_px;
-  }
-  if (counted_px > 0.0) return light / counted_px;
-  return by_level.empty() ? 0.0 : by_level.back()->level;
-}
-
-}  // namespace
-
-double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame) {
-  // Sums overlapping ghosts in the cells of a small frame.
-  const double cell = static_cast<double>(std::max(frame.width, frame.height)) / kPeakCells;
-  const int columns = std::max(1, static_cast<int>(frame.width / cell));
-  const int rows = std::max(1, static_cast<int>(frame.height / cell));
-  std::vector<double> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0);
-  const auto within = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, count - 1.0)); };
-  for (const GhostBlur& ghost : ghosts) {
-    if (!(ghost.level > 0.0)) continue;
-    const Vec2 at = ghost.at_px * (1.0 / cell) - Vec2{0.5, 0.5};
-    const double radius = std::sqrt(ghost.area_px / std::numbers::pi) / cell, reach = radius + 0.5;
-    for (int y = within(at.y - reach, rows); y <= within(at.y + reach, rows); ++y)
-      for (int x = within(at.x - reach, columns); x <= within(at.x + reach, columns); ++x)
-        sums[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] +=
-            ghost.level * coverage(length(Vec2{x - at.x, y - at.y}), radius);
-  }
-  // Spots are smaller than such a cell.
-  return std::max(reached_by(std::move(sums), kPeakFraction),
-                  brightest_over(ghosts, frame, kPeakFraction * frame.width * frame.height));
 }
 
 }  // namespace contrejour::inline internal::area

@@ -29,11 +29,18 @@ struct GhostBlur {
   double area_px = 1.0;  // over which the blurred ghost's light is spread: its flux over its level
   double level = 0.0;  // brightness of the blurred ghost, a pixel's value; 0: outside the frame
   double flux = 0.0;  // of the whole ghost, pixel values
+  double visible = 0.0;  // the fraction of the pupil whose light lands in the frame
   std::vector<BlurredLine> lines;
 
   // Relative to the picture's peak.
   [[nodiscard]] BlurredGhost over(double peak) const { return {blur_px, size_px, peak > 0.0 ? level / peak : 0.0}; }
 };
+
+// The distance of a point from the frame's border; negative outside.
+[[nodiscard]] double inside_px(const Frame& frame, Vec2 px);
+
+// The length of the blurred ghost's outline.
+[[nodiscard]] double outline_px(const GhostBlur& ghost);
 
 // value: a pixel's value for an irradiance equal to the light's. shift_mm: the ghost's offset.
 [[nodiscard]] GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Frame& frame, Vec2 shift_mm,
@@ -51,13 +58,9 @@ struct GhostBlur {
 [[nodiscard]] double map_error(const GhostBlur& ghost, const LinearMap& px, const LightPiece& piece, double peak,
                                double enough = std::numeric_limits<double>::infinity());
 
-// The ghost as its own map blurs it: its lines move as the map says. Its map_error for another map is the difference
-// between pictures drawn with the two maps.
-[[nodiscard]] GhostBlur as_drawn(GhostBlur ghost);
-
-// The level that the brightest kPeakFraction of the frame reach, with ghosts as uniform discs.
-inline constexpr double kPeakFraction = 0.002;
-[[nodiscard]] double peak_of(const std::vector<GhostBlur>& ghosts, const Frame& frame);
+// The ghost as its own map blurs it: its lines move as the map says, and the outline of the blur is among them. Its
+// map_error for another map is the difference between pictures drawn with the two maps.
+[[nodiscard]] GhostBlur as_drawn(GhostBlur ghost, const LightPiece& piece);
 
 // The radii, across the shorter and the longer axis, of a uniform ellipse with that covariance: twice the standard
 // deviations.

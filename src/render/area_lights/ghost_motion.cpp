@@ -186,6 +186,7 @@ struct BorderMotion {
 struct InnerMotion {
   LocalMotion at;
   double fraction = 0.0;
+  LinearMap covariance_mm2;  // of where the light of that part of the pupil lands, by the local derivative of the map
 };
 
 Vec2 across(Vec2 v) { return {-v.y, v.x}; }
@@ -204,7 +205,8 @@ std::optional<GhostLine> border_line(const BorderMotion& border) {
                    at.ray().sensor_mm,
                    at.density(),
                    true,
-                   border.length_mm};
+                   border.length_mm,
+                   kZeroMap};
 }
 
 // A caustic lies along the image of the direction that the map from the pupil hardly stretches.
@@ -213,7 +215,7 @@ GhostLine inner_line(const InnerMotion& inner, const LinearMap& shift) {
   const LinearMap squares = at.sensor_by_start * transposed(at.sensor_by_start);
   const double angle = 0.5 * std::atan2(2.0 * squares.x.y, squares.x.x - squares.y.y);
   const Vec2 normal{-std::sin(angle), std::cos(angle)};
-  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false, inner.fraction};
+  return {normal, along(normal, shift), at.ray().sensor_mm, at.density(), false, inner.fraction, inner.covariance_mm2};
 }
 
 // The motion of the whole pupil in the plane of the starts, fitted to its border by least squares.
@@ -249,20 +251,18 @@ Vec2 area_rate(const PupilShape& pupil, const std::vector<BorderMotion>& borders
 // Sets the centre and the spread of where the light lands.
 void set_extent(GhostMotion& motion, const std::vector<InnerMotion>& inside, double area_mm2) {
   double light = 0.0, all = 0.0;
-  for (const auto& [at, fraction] : inside) {
-    motion.centroid_mm = motion.centroid_mm + at.ray().sensor_mm * (fraction * at.ray().transmission);
-    light += fraction * at.ray().transmission;
-    all += fraction;
+  for (const InnerMotion& inner : inside) {
+    const double weight = inner.fraction * inner.at.ray().transmission;
+    motion.centroid_mm = motion.centroid_mm + inner.at.ray().sensor_mm * weight;
+    light += weight;
+    all += inner.fraction;
   }
   motion.centroid_mm = motion.centroid_mm * (1.0 / light);
   LinearMap covariance = kZeroMap;
-  for (const auto& [at, fraction] : inside) {
-    const Vec2 d = at.ray().sensor_mm - motion.centroid_mm;
-    const double weight = fraction * at.ray().transmission / light;
-    // Adds the spread of the light between these rays, by the local derivative of the map.
-    const double part = area_mm2 * fraction / 12.0;
-    covariance = covariance + LinearMap{d * (d.x * weight), d * (d.y * weight)} +
-                 at.sensor_by_start * transposed(at.sensor_by_start) * (part * weight);
+  for (const InnerMotion& inner : inside) {
+    const Vec2 d = inner.at.ray().sensor_mm - motion.centroid_mm;
+    const double weight = inner.fraction * inner.at.ray().transmission / light;
+    covariance = covariance + LinearMap{d * (d.x * weight), d * (d.y * weight)} + inner.covariance_mm2 * weight;
   }
   motion.spread_mm = square_root(covariance * 4.0);
   motion.flux_mm2 = light / all * area_mm2;
@@ -361,7 +361,8 @@ GhostMotion ghost_motion(const LensSteps& steps, Ghost ghost, const LightSource&
     if (!at.is_usable()) continue;
     const std::size_t border = k - 1 - pupil->inside.size();
     if (k <= pupil->inside.size())
-      inside.push_back({at, pupil->inside[k - 1].fraction});
+      inside.push_back(
+          {at, pupil->inside[k - 1].fraction, mapped_covariance(at.sensor_by_start, pupil->inside[k - 1].covariance)});
     else
       borders.push_back({at, pupil->border[border].bound, pupil->border[border].length_mm});
   }

@@ -20,6 +20,7 @@ struct GhostLine {
   double density = 0.0;  // the irradiance there over the light's
   bool is_border = true;  // whether it belongs to the outline
   double fraction = 0.0;  // of the outline, or of the pupil's area, that it stands for
+  LinearMap covariance_mm2 = kZeroMap;  // of where that part of the pupil's light lands; zero at the outline
 };
 
 struct GhostMotion {

@@ -7,6 +7,7 @@
 
 #include "base/tasks.h"
 #include "ghosts/light_frame.h"
+#include "render/area_lights/frame_peak.h"
 
 namespace contrejour::inline internal::area {
 namespace {

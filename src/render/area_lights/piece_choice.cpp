@@ -23,10 +23,6 @@ constexpr double kSpot_px = 40.0;  // radius
 // a light's radius, as a tangent, times kOutsideByAngle.
 constexpr double kOutsideByAngle = 60.0, kOutside = 0.02;
 
-double outline_px(const GhostBlur& ghost) {
-  return std::numbers::pi * (ghost.blur_px.x + ghost.blur_px.y + ghost.size_px.x + ghost.size_px.y);
-}
-
 double edge_width_px(const GhostBlur& ghost) { return std::max(std::min(ghost.blur_px.x, ghost.size_px.x), 1e-3); }
 
 double radius_of(const LightPiece& piece) { return radii_of(piece.covariance).y; }
@@ -125,15 +121,12 @@ struct Divisions {
   double from = 0.0;  // a place among kAcross, and the part of the next one: no coarser ones are chosen
 
   // The place at which the ghost is divided if steps are worth making from this gain on. A step is made in part over
-  // a range of gains, so that no ghost's division depends on the others' order.
+  // a range of gains, so that no ghost's division depends on the others' order. The range nearly reaches to the next
+  // step: between steps a small change of all errors would change the least gain, and the other divisions, by far.
   [[nodiscard]] double at(double least_gain) const {
-    constexpr double kWholeStep = 3.0;  // times the least gain
+    constexpr double kWholeStep = 8.0;  // times the least gain
     double place = 0.0;
-    for (const double one : gain) {
-      const double part = std::clamp((one / least_gain - 1.0) / (kWholeStep - 1.0), 0.0, 1.0);
-      place += part;
-      if (part < 1.0) break;
-    }
+    for (const double one : gain) place += std::clamp(std::log(one / least_gain) / std::log(kWholeStep), 0.0, 1.0);
     return std::max(place, from);
   }
   // The error there. What the finest division leaves does not count: other ghosts need not compensate for it.

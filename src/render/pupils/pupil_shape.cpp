@@ -21,6 +21,7 @@ constexpr std::size_t kFineRays = kFineSide * kFineSide;
 constexpr std::size_t kBounds = kMaxStopCrossings + 1;  // kRims is the last
 constexpr int kEnough = 30;  // rays that get through, enough to know the shape of the open region
 constexpr int kNarrow = 60;  // rays that get through: with fewer the shape is measured with a fine grid
+constexpr double kBeside = 0.5;  // of the coarse grid's box: where the fine grid looks for more light on each side
 constexpr int kFew = 4;  // of the first grid's: so few may be those of a small opening beside the pupil
 constexpr int kMinGrids = 2, kMaxGrids = 4;
 // A bound counts at a border if the excess over it is less than the largest one by no more than this part of the
@@ -181,6 +182,18 @@ Traced trace_grids(HalvedGrid& grid, std::optional<Rectangle> box) {
   return traced;
 }
 
+// A coarse grid misses the ends of parts that are thinner than its cells, and its box does not contain them: a first
+// fine grid, with cells no larger than the coarse one's, finds the box that the second one measures.
+void trace_finely(HalvedGrid& grid, const EntranceWindow& window) {
+  const Rectangle coarse = grid.box();
+  const Vec2 beside = (coarse.high - coarse.low) * kBeside, low = coarse.low - beside, high = coarse.high + beside;
+  grid.trace({{std::max(low.x, window.min_mm.x), std::max(low.y, window.min_mm.y)},
+              {std::min(high.x, window.max_mm.x), std::min(high.y, window.max_mm.y)}},
+             kFineSide);
+  if (const auto open = next_box(grid)) grid.trace(*open, kFineSide);
+  if (grid.open_rays() == 0) grid.trace(coarse, kFineSide);  // whose rays include the coarse grid's
+}
+
 // Collects the open parts of a grid's triangles by blocks of cells.
 class PupilSum {
  public:
@@ -205,7 +218,7 @@ class PupilSum {
     pupil.covariance = all.covariance();
     for (const Block& block : blocks_) {
       if (block.open.area_mm2 > 0.0)
-        pupil.inside.push_back({block.open.centroid(), block.open.area_mm2 / all.area_mm2});
+        pupil.inside.push_back({block.open.centroid(), block.open.area_mm2 / all.area_mm2, block.open.covariance()});
       for (std::size_t bound = 0; bound < block.borders.size(); ++bound) {
         const Border& border = block.borders[bound];
         if (!(border.length_mm > 0.0)) continue;
@@ -287,8 +300,11 @@ class PupilSum {
 PupilShape in_lens_frame(PupilShape pupil, const LightFrame& light) {
   const LinearMap rotation{light.to_lens_frame({1.0, 0.0}), light.to_lens_frame({0.0, 1.0})};
   pupil.middle_mm = rotation(pupil.middle_mm);
-  pupil.covariance = rotation * pupil.covariance * transposed(rotation);
-  for (InnerPoint& point : pupil.inside) point.start_mm = rotation(point.start_mm);
+  pupil.covariance = mapped_covariance(rotation, pupil.covariance);
+  for (InnerPoint& point : pupil.inside) {
+    point.start_mm = rotation(point.start_mm);
+    point.covariance = mapped_covariance(rotation, point.covariance);
+  }
   for (BorderPoint& point : pupil.border) point.start_mm = rotation(point.start_mm);
   return pupil;
 }
@@ -305,7 +321,7 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
     if (searched && (traced.open == 0 || area_of(grid.box()) < area_of(*searched)))
       traced = trace_grids(grid, *searched);
   }
-  if (traced.open > 0 && traced.open < kNarrow) grid.trace(Rectangle{grid.box()}, kFineSide);
+  if (traced.open > 0 && traced.open < kNarrow) trace_finely(grid, window);
   if (traced.open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
   const std::size_t least_blocked = grid.least_blocked();
   if (!std::isfinite(grid.outside(least_blocked))) return std::nullopt;

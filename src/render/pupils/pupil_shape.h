@@ -18,10 +18,11 @@ namespace contrejour::inline internal::pupils {
 
 inline constexpr int kRims = kMaxStopCrossings;  // follows the stop's crossings
 
-// A point of the pupil, and the fraction of its area for which it stands.
+// The centroid of a part of the pupil, the fraction of the pupil's area that this part is, and its covariance, mm^2.
 struct InnerPoint {
   Vec2 start_mm;
   double fraction = 0.0;
+  LinearMap covariance = kZeroMap;
 };
 
 // A point of the pupil's border, and the length for which it stands.

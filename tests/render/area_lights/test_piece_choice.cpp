@@ -10,6 +10,7 @@
 
 #include "render/area_lights/blur_clusters.h"
 #include "render/area_lights/blurred_images.h"
+#include "render/area_lights/frame_peak.h"
 #include "render/area_lights/piece_choice.h"
 #include "support/approx.h"
 #include "support/scenes.h"
@@ -69,13 +70,36 @@ TEST_CASE("as a ghost's error falls, its division and all others' change steadil
   }
 }
 
+namespace {
+
+// A ghost of the sun in a frame of 160 x 90 at some times; the sun moves by a tenth of a pixel each.
+std::vector<GhostBlur> blurs_over_time(const LensState& lens, double lambda_nm, const Ghost& ghost, int first,
+                                       int end) {
+  const ReflectanceTables tables(lens, lambda_nm);
+  const LensSteps steps(lens, tables);
+  const Frame frame = frame_on_sensor(lens, 160, 90);
+  std::vector<GhostBlur> blurs;
+  for (int k = first; k < end; ++k) {
+    const double moved_px = 0.1 * k;
+    Light light =
+        test::light_at(lens, frame, {0.70 + moved_px * std::cos(0.3) / 160, 0.33 + moved_px * std::sin(0.3) / 90});
+    light.radius_rad = kSunRadius_rad;
+    const LightSource source{light.direction};
+    const GhostMotion motion = ghost_motion(steps, ghost, source, LightWindows(lens, source));
+    blurs.push_back(blur_of(motion, pieces_of(light).front(), frame, {}, 1.0));
+  }
+  return blurs;
+}
+
+}  // namespace
+
 TEST_CASE("lines of a ghost that come and go do not change the ghost's blur at once") {
   struct Case {
     const char* lens;
     LensSettings settings;
     double lambda_nm;
     Ghost ghost;
-    int first, end;  // times between which the light moves, by a tenth of a pixel each
+    int first, end;
   };
   // A part of the outline of the Heliar's ghost comes near the frame and moves otherwise than the part inside it; the
   // shorter radius fell to a sixth at once. The Canon's pupil is narrow, and few of its outline's pieces constrain the
@@ -83,23 +107,20 @@ TEST_CASE("lines of a ghost that come and go do not change the ghost's blur at o
   for (const Case& one : {Case{"heliar", {.f_number = 16.0}, 587.6, {3, 4}, 68, 82},
                           Case{"canon-70-200", {.focal_length_mm = 135.0, .f_number = 32.0}, 530.0, {6, 13}, 42, 48}}) {
     CAPTURE(one.lens);
-    const LensState lens = test::bundled(one.lens, one.settings);
-    const ReflectanceTables tables(lens, one.lambda_nm);
-    const LensSteps steps(lens, tables);
-    const Frame frame = frame_on_sensor(lens, 160, 90);
-    std::vector<GhostBlur> blurs;
-    for (int k = one.first; k < one.end; ++k) {
-      const double moved_px = 0.1 * k;
-      Light light =
-          test::light_at(lens, frame, {0.70 + moved_px * std::cos(0.3) / 160, 0.33 + moved_px * std::sin(0.3) / 90});
-      light.radius_rad = kSunRadius_rad;
-      const LightSource source{light.direction};
-      const GhostMotion motion = ghost_motion(steps, one.ghost, source, LightWindows(lens, source));
-      blurs.push_back(blur_of(motion, pieces_of(light).front(), frame, {}, 1.0));
-    }
+    const auto blurs =
+        blurs_over_time(test::bundled(one.lens, one.settings), one.lambda_nm, one.ghost, one.first, one.end);
     for (std::size_t k = 1; k < blurs.size(); ++k)
       CHECK(blurs[k].blur_px.x == test::approx(blurs[k - 1].blur_px.x).epsilon(0.3));
   }
+}
+
+TEST_CASE("the level of a thin ghost whose two sides move differently changes steadily") {
+  // The blur's shorter radius is hardly determined, and the level was the flux over the blur's area: it changed by a
+  // factor of four from one frame to the next.
+  const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 32.0});
+  const auto blurs = blurs_over_time(lens, 530.0, {11, 20}, 142, 150);
+  for (std::size_t k = 1; k < blurs.size(); ++k)
+    CHECK(blurs[k].level == test::approx(blurs[k - 1].level).epsilon(0.15));
 }
 
 TEST_CASE("what the parts of a light show of a ghost counts by degrees") {
@@ -160,11 +181,34 @@ TEST_CASE("a ghost that no map fits does not change to another ghost's blur as i
   light.radius_rad = kSunRadius_rad;
   const LightPiece piece = pieces_of(light).front();
   const double own = map_error(torn, torn.px, piece, 1.0), shared = map_error(torn, wide.px, piece, 1.0);
-  const double seen = map_error(as_drawn(torn), wide.px, piece, 1.0);
+  const double seen = map_error(as_drawn(torn, piece), wide.px, piece, 1.0);
   CHECK(seen > 2.0 * (shared - own));
   const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&torn, 0, 1}};
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 0.9 * seen).clusters.size() == 2);
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 1.1 * seen).clusters.size() == 1);
+}
+
+TEST_CASE("errors of a light's pieces that overlap add up") {
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur wide, part;
+  wide.px = LinearMap{} * 850.0;
+  part.px = LinearMap{} * 800.0;
+  wide.level = 1.0;
+  part.level = 0.9;
+  wide.blur_px = {4.0, 4.0};
+  part.blur_px = {3.8, 3.8};
+  wide.size_px = part.size_px = {20.0, 20.0};
+  wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
+  part.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {800.0, 0.0}, 0.5, 100.0});
+  Light light;
+  light.direction = {0.0, 0.0, 1.0};
+  light.radius_rad = kSunRadius_rad;
+  const LightPiece piece = pieces_of(light).front();
+  const double alone = map_error(as_drawn(part, piece), wide.px, piece, 1.0);
+  for (const double overlapping : {1.0, 3.0}) {
+    const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&part, 0, 1, overlapping}};
+    CHECK(blur_clusters(ghosts, piece, frame, 1.0, 2.0 * alone).clusters.size() == (overlapping < 2.0 ? 1 : 2));
+  }
 }
 
 namespace {
