@@ -25,7 +25,7 @@ double light_area_px(std::span<const GhostPart> parts, const LinearMap& blur) {
       if (std::isfinite(product)) squares += product;
     }
   }
-  return squares > 0.0 ? 2.0 * std::numbers::pi * light / squares : ellipse_px(blur) + 1.0;
+  return squares > 0.0 ? 2.0 * std::numbers::pi * light * light / squares : ellipse_px(blur) + 1.0;
 }
 
 }  // namespace contrejour::inline internal::area

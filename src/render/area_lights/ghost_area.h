@@ -17,9 +17,9 @@ struct GhostPart {
 // The area of a uniform ellipse with that covariance.
 [[nodiscard]] double ellipse_px(const LinearMap& covariance);
 
-// The flux of a ghost, blurred by this covariance, over the mean level of these parts of it, weighted by their light:
-// most of a ghost's light may be in a small part of its extent. At least about one pixel. For a uniform ellipse that is
-// one part, it is the ellipse's area.
+// The light of these parts, blurred by this covariance, over its mean level, weighted by light: most of a ghost's light
+// may be in a small part of its extent. At least about one pixel. For a uniform ellipse that is one part, it is the
+// ellipse's area.
 [[nodiscard]] double light_area_px(std::span<const GhostPart> parts, const LinearMap& blur);
 
 }  // namespace contrejour::inline internal::area

@@ -174,19 +174,25 @@ std::vector<double> visible_parts(const GhostBlur& ghost, const GhostMotion& mot
   return visible;
 }
 
-// The fraction of the pupil whose light lands in the frame.
+// The fraction of the pupil whose light lands in the frame. Of a ghost without interior rays, all may.
 double visible_light(const GhostMotion& motion, const std::vector<double>& visible) {
-  double light = 0.0;
-  for (std::size_t k = 0; k < motion.lines.size(); ++k)
-    if (!motion.lines[k].is_border) light += visible[k] * motion.lines[k].fraction;
-  return light;
+  double light = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < motion.lines.size(); ++k) {
+    if (motion.lines[k].is_border) continue;
+    light += visible[k] * motion.lines[k].fraction;
+    all += motion.lines[k].fraction;
+  }
+  return all > 0.0 ? light / all : 1.0;
 }
+
+// The mean level of the light in the frame.
+double visible_level(const GhostBlur& ghost) { return ghost.visible * ghost.flux / ghost.area_px; }
 
 // Sets the lines that reach the frame.
 void set_lines(GhostBlur& ghost, const GhostMotion& motion, const std::vector<double>& visible, const Frame& frame,
                Vec2 shift_mm, double value) {
   const double ghost_px = std::numbers::pi * ghost.size_px.x * ghost.size_px.y;
-  const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * ghost.flux / ghost.area_px;
+  const double mean = ghost.flux / std::max(ghost_px, 1.0), largest = kBrightest * visible_level(ghost);
   for (std::size_t k = 0; k < motion.lines.size(); ++k) {
     if (visible[k] == 0.0) continue;
     const GhostLine& f = motion.lines[k];
@@ -249,7 +255,7 @@ void set_blur(GhostBlur& ghost, const LightPiece& piece, const Frame& frame) {
 void limit_lines(GhostBlur& ghost, double sharp_px, bool by_disc) {
   const double over_disc = by_disc ? 1.0 : 2.0;  // a kernel's peak over that of a disc as wide; soft pieces' is 2
   const double over_mean = std::lerp(over_disc, kBrightest, std::min(sharp_px / ghost.area_px, 1.0));
-  for (BlurredLine& f : ghost.lines) f.height = std::min(f.height, over_mean * ghost.flux / ghost.area_px);
+  for (BlurredLine& f : ghost.lines) f.height = std::min(f.height, over_mean * visible_level(ghost));
 }
 
 }  // namespace
@@ -293,7 +299,7 @@ GhostBlur blur_of(const GhostMotion& motion, const LightPiece& piece, const Fram
   ghost.area_px = light_area_px(parts, blur);
   limit_lines(ghost, light_area_px(parts, kZeroMap), piece.is_disc);
   // Twice the distance that first derivatives predict, since ghosts are larger than that where they are not sharp.
-  if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = ghost.flux / ghost.area_px;
+  if (touches(frame, ghost.at_px, 2.0 * (ghost.size_px.y + ghost.blur_px.y))) ghost.level = visible_level(ghost);
   return ghost;
 }
 
@@ -334,7 +340,7 @@ GhostBlur as_drawn(GhostBlur ghost, const LightPiece& piece) {
     f.normal = {std::cos(angle), std::sin(angle)};
     f.at_px = ghost.at_px;
     f.shift_px = along(f.normal, ghost.px);
-    f.height = ghost.flux / ghost.area_px;
+    f.height = ghost.level;
     f.length_px = ghost.visible * std::numbers::pi * (radii.x + radii.y) / kNormals;
     ghost.lines.push_back(f);
   }

@@ -26,7 +26,7 @@ struct GhostBlur {
   LinearMap motion_px = kZeroMap;  // the same with the map's rotation, where `px` omits it
   Vec2 blur_px, size_px;  // radii across the shorter and the longer axis: of the blur, and of the ghost
   Vec2 at_px;
-  double area_px = 1.0;  // over which the blurred ghost's light is spread: its flux over its level
+  double area_px = 1.0;  // over which the light in the frame is spread, blurred
   double level = 0.0;  // brightness of the blurred ghost, a pixel's value; 0: outside the frame
   double flux = 0.0;  // of the whole ghost, pixel values
   double visible = 0.0;  // the fraction of the pupil whose light lands in the frame
