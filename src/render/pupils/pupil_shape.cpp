@@ -182,6 +182,19 @@ Traced trace_grids(HalvedGrid& grid, std::optional<Rectangle> box) {
   return traced;
 }
 
+// Whether light gets through at a border of the grid inside the window: there may be more beyond.
+bool is_cut(const HalvedGrid& grid, const EntranceWindow& window) {
+  const Vec2 low = grid.box().low - window.min_mm, high = window.max_mm - grid.box().high;
+  const std::size_t side = grid.side(), last = side - 1;
+  for (std::size_t k = 0; k < side; ++k) {
+    if (low.x > grid.cell().x && grid.is_open(k * side)) return true;
+    if (high.x > grid.cell().x && grid.is_open(k * side + last)) return true;
+    if (low.y > grid.cell().y && grid.is_open(k)) return true;
+    if (high.y > grid.cell().y && grid.is_open(last * side + k)) return true;
+  }
+  return false;
+}
+
 // A coarse grid misses the ends of parts that are thinner than its cells, and its box does not contain them: a first
 // fine grid, with cells no larger than the coarse one's, finds the box that the second one measures.
 void trace_finely(HalvedGrid& grid, const EntranceWindow& window) {
@@ -321,7 +334,7 @@ std::optional<PupilShape> find_pupil_shape(const LensSteps& steps, const Ghost& 
     if (searched && (traced.open == 0 || area_of(grid.box()) < area_of(*searched)))
       traced = trace_grids(grid, *searched);
   }
-  if (traced.open > 0 && traced.open < kNarrow) trace_finely(grid, window);
+  if (traced.open > 0 && (traced.open < kNarrow || is_cut(grid, window))) trace_finely(grid, window);
   if (traced.open > 0) return in_lens_frame(PupilSum(grid).pupil(), light);
   const std::size_t least_blocked = grid.least_blocked();
   if (!std::isfinite(grid.outside(least_blocked))) return std::nullopt;
