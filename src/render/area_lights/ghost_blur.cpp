@@ -161,12 +161,17 @@ LinearMap map_as_wide(const GhostBlur& ghost, const LightPiece& piece, const Lin
   return (can_rotate ? root * map * inverse(stretch) : root) * inverse(light);
 }
 
+// The length of the outline that a line represents.
+double own_length_px(const GhostBlur& ghost, const GhostLine& f) {
+  return std::max(f.fraction * outline_px(ghost), 1e-3);
+}
+
 // The part of each line that lies in the frame.
 std::vector<double> visible_parts(const GhostBlur& ghost, const GhostMotion& motion, const Frame& frame,
                                   Vec2 shift_mm) {
   std::vector<double> visible;
   for (const GhostLine& f : motion.lines) {
-    const double own_px = std::max(f.fraction * outline_px(ghost), 1e-3);
+    const double own_px = own_length_px(ghost, f);
     const double within_px = inside_px(frame, frame.pixel_from_sensor(f.at_mm + shift_mm)) + ghost.blur_px.x;
     const double inside = std::clamp(0.5 + within_px / own_px, 0.0, 1.0);
     visible.push_back(inside * inside * (3.0 - 2.0 * inside));
@@ -174,7 +179,7 @@ std::vector<double> visible_parts(const GhostBlur& ghost, const GhostMotion& mot
   return visible;
 }
 
-// The fraction of the pupil whose light lands in the frame. Of a ghost without interior rays, all may.
+// The fraction of the pupil whose light lands in the frame. All of it may, if the ghost has no interior rays.
 double visible_light(const GhostMotion& motion, const std::vector<double>& visible) {
   double light = 0.0, all = 0.0;
   for (std::size_t k = 0; k < motion.lines.size(); ++k) {
@@ -202,7 +207,7 @@ void set_lines(GhostBlur& ghost, const GhostMotion& motion, const std::vector<do
     px.shift_px = f.shift_mm * (1.0 / frame.pixel_pitch_mm);
     const double density = f.density * value;
     px.height = std::min(f.is_border ? density : std::max(density - kGathered * mean, 0.0), largest);
-    px.length_px = visible[k] * std::max(f.fraction * outline_px(ghost), 1e-3);
+    px.length_px = visible[k] * own_length_px(ghost, f);
     ghost.lines.push_back(px);
   }
 }

@@ -162,24 +162,35 @@ TEST_CASE("a ghost that joins another's image does not change its blur") {
   CHECK(made.clusters.front().px_from_tangents.x.x == test::approx(sharp.px.x.x));
 }
 
-TEST_CASE("a ghost that no map fits does not change to another ghost's blur as if that changed nothing") {
-  // Its lines move by 450 and by 850 of the map's units, so that either fits it about as badly.
-  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
-  GhostBlur wide, torn;
-  wide.px = LinearMap{} * 850.0;
-  torn.px = LinearMap{} * 450.0;
-  wide.level = 1.0;
-  torn.level = 0.9;
-  wide.blur_px = {4.0, 4.0};
-  torn.blur_px = {2.1, 2.1};
-  wide.size_px = torn.size_px = {20.0, 20.0};
-  wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
-  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {450.0, 0.0}, 0.5, 50.0});
-  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 0.5, 100.0});
+namespace {
+
+// A ghost of radius 20 pixels whose map is the same in all directions.
+GhostBlur large_ghost(double by, double level, double blur_px) {
+  GhostBlur ghost;
+  ghost.px = LinearMap{} * by;
+  ghost.level = level;
+  ghost.blur_px = {blur_px, blur_px};
+  ghost.size_px = {20.0, 20.0};
+  return ghost;
+}
+
+LightPiece sun_piece() {
   Light light;
   light.direction = {0.0, 0.0, 1.0};
   light.radius_rad = kSunRadius_rad;
-  const LightPiece piece = pieces_of(light).front();
+  return pieces_of(light).front();
+}
+
+}  // namespace
+
+TEST_CASE("a ghost that no map fits does not change to another ghost's blur as if that changed nothing") {
+  // Its lines move by 450 and by 850 of the map's units, so that either fits it about as badly.
+  const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
+  GhostBlur wide = large_ghost(850.0, 1.0, 4.0), torn = large_ghost(450.0, 0.9, 2.1);
+  wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {450.0, 0.0}, 0.5, 50.0});
+  torn.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 0.5, 100.0});
+  const LightPiece piece = sun_piece();
   const double own = map_error(torn, torn.px, piece, 1.0), shared = map_error(torn, wide.px, piece, 1.0);
   const double seen = map_error(as_drawn(torn, piece), wide.px, piece, 1.0);
   CHECK(seen > 2.0 * (shared - own));
@@ -190,20 +201,10 @@ TEST_CASE("a ghost that no map fits does not change to another ghost's blur as i
 
 TEST_CASE("errors of a light's pieces that overlap add up") {
   const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
-  GhostBlur wide, part;
-  wide.px = LinearMap{} * 850.0;
-  part.px = LinearMap{} * 800.0;
-  wide.level = 1.0;
-  part.level = 0.9;
-  wide.blur_px = {4.0, 4.0};
-  part.blur_px = {3.8, 3.8};
-  wide.size_px = part.size_px = {20.0, 20.0};
+  GhostBlur wide = large_ghost(850.0, 1.0, 4.0), part = large_ghost(800.0, 0.9, 3.8);
   wide.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {850.0, 0.0}, 1.0, 100.0});
   part.lines.push_back({{1.0, 0.0}, {80.0, 45.0}, {800.0, 0.0}, 0.5, 100.0});
-  Light light;
-  light.direction = {0.0, 0.0, 1.0};
-  light.radius_rad = kSunRadius_rad;
-  const LightPiece piece = pieces_of(light).front();
+  const LightPiece piece = sun_piece();
   const double alone = map_error(as_drawn(part, piece), wide.px, piece, 1.0);
   for (const double overlapping : {1.0, 3.0}) {
     const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&part, 0, 1, overlapping}};
