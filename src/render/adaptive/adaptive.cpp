@@ -259,7 +259,8 @@ Result<DrawnFlare> draw_adaptive(const PlannedFrame& planned, double error, cons
   if (context.cancelled()) return interrupted();
   const bool dark = !(preview.peak > 0.0);
   const double traced_flux = traced_fraction(items, preview.estimates);
-  const FrameError allowed{error, std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
+  const FrameError allowed{error * std::sqrt(plan.error_fraction),
+                           std::max(dark ? faintest_peak(plan, frame) : preview.peak, plan.min_peak),
                            static_cast<double>(frame.width) * frame.height};
   if (stops.on() && !dark) work.add(set_stop_patterns(scene, stops, items, preview.estimates, allowed, quiet));
   if (context.cancelled()) return interrupted();

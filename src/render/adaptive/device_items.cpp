@@ -2,6 +2,7 @@
 #include "render/adaptive/device_items.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -119,8 +120,9 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
       *kept.device, {*plan, frame, planned.cache, std::move(statistics), ms_since(start)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
-        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, all.starts, items, groups, options.error,
-                                             plan->min_peak, kept.reads_pictures},
+        const double error = options.error * std::sqrt(plan->error_fraction);
+        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, all.starts, items, groups, error, plan->min_peak,
+                                             kept.reads_pictures},
                                  image, drawing);
       },
       context);

@@ -70,6 +70,7 @@ class AreaPainter {
     PyramidFrame at;
     part.dark_margin_px = 0;
     part.min_peak = peak * std::exp2(2 * image.level);
+    part.error_fraction = image.error_fraction;
     if (piece != nullptr) {
       const KernelExtent extent = extent_of(*piece, image.px_from_tangents);
       at = pyramid_of(image).frame_for(std::max(image.level, 0), extent);

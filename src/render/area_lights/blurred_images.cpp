@@ -138,6 +138,32 @@ class ClusterChoice {
   std::map<int, std::vector<BlurClusters>> tried_;  // by the step of the series
 };
 
+// What an image draws.
+struct Tally {
+  double ghosts = 0.0;
+  double independent = 0.0;  // each counts less if it overlaps others like it
+
+  void add(const PieceGhost& one, double part) {
+    if (!(one.blur->level > 0.0)) return;
+    ghosts += part;
+    independent += part / one.overlapping;
+  }
+};
+
+// Divides the frame's squared error among the images. Each may make the part of the ghosts that it draws, since
+// `adaptive` allows every ghost the same error, with a constant for frames of few ghosts. Pieces of one light are drawn
+// with the same errors at nearly the same places, so that m ghosts that overlap make m times the sum of their squares.
+void divide_error(std::span<BlurredImage> images, std::span<const Tally> tallies) {
+  constexpr double kFew = 16.0;
+  double all = kFew;
+  for (const Tally& tally : tallies) all += tally.ghosts;
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    const Tally& tally = tallies[k];
+    if (tally.ghosts > 0.0)
+      images[k].error_fraction = (kFew + tally.ghosts) / all * tally.independent / tally.ghosts;
+  }
+}
+
 // Adds a part of a pair to an image. A light that successive pairs share is listed once.
 void add_pair(BlurredImage& image, const Job& job, std::size_t k, double part, const PlannedLight*& last) {
   if (part < 1.0) {
@@ -162,22 +188,38 @@ std::vector<BlurredImage> blurred_images(const SurveyedFrame& frame, const Frame
   const std::vector<BlurClusters> clusters =
       ClusterChoice(jobs.all, settings.frame, frame.peak, kMisfitFraction * squares).clusters();
   std::vector<BlurredImage> images;
+  std::vector<Tally> tallies;
   BlurredImage sharp;
+  Tally of_sharp;
   for (std::size_t j = 0; j < jobs.all.size(); ++j) {
     const Job& job = jobs.all[j];
     const PlannedLight* last = nullptr;
-    for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) add_pair(sharp, job, k, 1.0, last);
+    for (std::size_t k = 0; job.is_point && k < job.pairs.size(); ++k) {
+      add_pair(sharp, job, k, 1.0, last);
+      of_sharp.add(job.pairs[k], 1.0);
+    }
     for (const BlurCluster& made : clusters[j].clusters) {
-      BlurredImage image{{}, {}, job.piece, made.level, made.px_from_tangents, {}};
+      BlurredImage own{{}, {}, job.piece, made.level, made.px_from_tangents, {}};
+      Tally of_own;
+      BlurredImage& image = made.is_sharp ? sharp : own;
+      Tally& tally = made.is_sharp ? of_sharp : of_own;
       if (made.level < 0)
-        image.window = window_of(jobs.spot(job.pairs[made.ghosts.front()].spot), settings.frame, made.level);
+        own.window = window_of(jobs.spot(job.pairs[made.ghosts.front()].spot), settings.frame, made.level);
       last = nullptr;
-      for (std::size_t m = 0; m < made.ghosts.size(); ++m)
-        add_pair(made.is_sharp ? sharp : image, job, made.ghosts[m], made.light_fractions[m], last);
-      if (!made.is_sharp) images.push_back(std::move(image));
+      for (std::size_t m = 0; m < made.ghosts.size(); ++m) {
+        add_pair(image, job, made.ghosts[m], made.light_fractions[m], last);
+        tally.add(job.pairs[made.ghosts[m]], made.light_fractions[m]);
+      }
+      if (made.is_sharp) continue;
+      images.push_back(std::move(own));
+      tallies.push_back(of_own);
     }
   }
-  if (!sharp.pairs.empty()) images.push_back(std::move(sharp));
+  if (!sharp.pairs.empty()) {
+    images.push_back(std::move(sharp));
+    tallies.push_back(of_sharp);
+  }
+  divide_error(images, tallies);
   const auto rank = [](const BlurredImage& d) { return d.piece == nullptr ? 1 : 2 * d.level; };
   std::stable_sort(images.begin(), images.end(),
                    [&](const BlurredImage& a, const BlurredImage& b) { return rank(a) > rank(b); });

@@ -20,6 +20,7 @@ struct BlurredImage {
   int level = 0;
   LinearMap px_from_tangents = kZeroMap;
   FineWindow window;  // for negative levels
+  double error_fraction = 1.0;  // of the frame's squared error: what drawing the image may make
 };
 
 // In the order in which Layers takes them. Ghosts of point lights, and those whose blur is not visible, stay sharp.

@@ -48,6 +48,8 @@ struct FramePlan {
   // A lower limit of the peak that errors are relative to, in pixel values: the picture may become part of a brighter
   // one.
   double min_peak = 0.0;
+  // The fraction of the squared error asked for that this picture may make: it may be one of several that are added up.
+  double error_fraction = 1.0;
   // If set, rows and columns that are farther than this many pixels from all light may be left out of the picture.
   std::optional<int> dark_margin_px;
   std::shared_ptr<const LayerMap> layers = nullptr;  // null: one picture

@@ -100,6 +100,30 @@ TEST_CASE("a plan that lets dark parts be left out gets the rest, as it is in th
   CHECK(drawn({}, 5).image.pixels.empty());
 }
 
+TEST_CASE("a picture that is a part of a frame may make a part of the squared error") {
+  const LensState lens = test::lens_at_f("tessar", 11.0);
+  test::Settings settings;
+  settings.wavelengths = 3;
+  settings.frame = frame_on_sensor(lens, 96, 64);
+  const Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  RenderCache cache;
+  auto plan = plan_frame({lens, {&light, 1}, settings, cache}, {});
+  REQUIRE(plan.has_value());
+  const auto drawn = [&](double error, double fraction) {
+    FramePlan part = *plan;
+    part.error_fraction = fraction;
+    RenderCache own_cache;
+    AdaptiveOptions options;
+    options.error = error;
+    auto flare = render_adaptive({lens, part, settings, own_cache}, options, {});
+    REQUIRE(flare.has_value());
+    return std::move(flare->picture.image.pixels);
+  };
+  const auto finer = drawn(0.002, 1.0);
+  CHECK(drawn(0.004, 0.25) == finer);
+  CHECK(drawn(0.004, 1.0) != finer);
+}
+
 TEST_CASE("the preview tells the level of a ghost that is smaller than its pixels") {
   const LensState lens = test::lens_at_f("itoh-zoom", 32.0, 123.0);
   test::Settings settings;

@@ -229,6 +229,31 @@ GhostBlur blurred_ghost(std::size_t number) {
   return ghost;
 }
 
+// A frame of the sun's ghosts, of pieces of the sun that change none of them if it is divided.
+SurveyedFrame sun_frame(std::size_t ghosts, int across, double peak) {
+  Light sun;
+  sun.direction = {0.0, 0.0, 1.0};
+  sun.radius_rad = kSunRadius_rad;
+  SurveyedLight light;
+  light.parts.across = across;
+  light.parts.pieces = pieces_of(sun, across);
+  light.parts.planned.resize(light.parts.pieces.size());
+  for (PlannedLight& planned : light.parts.planned) planned.passes.push_back({550.0, {1.0, 1.0, 1.0}});
+  for (std::size_t k = 0; k < ghosts; ++k) {
+    light.ghosts.push_back(k);
+    light.light_fractions.push_back(1.0);
+    light.wholes.push_back(blurred_ghost(k));
+  }
+  light.blurs.assign(light.parts.pieces.size(), light.wholes);
+  return {{light}, peak};
+}
+
+FrameSettings small_frame() {
+  FrameSettings settings;
+  settings.frame = {160, 90, 0, 0, 160, 90, 0.01};
+  return settings;
+}
+
 // The mean by light of the map that each ghost is drawn with.
 std::vector<double> drawn_maps(const SurveyedFrame& frame, const FrameSettings& settings) {
   std::vector<double> light(frame.lights.front().ghosts.size()), maps(light.size());
@@ -245,23 +270,9 @@ std::vector<double> drawn_maps(const SurveyedFrame& frame, const FrameSettings& 
 }  // namespace
 
 TEST_CASE("as errors grow steadily, ghosts fade from one image into another, and lose no light") {
-  Light sun;
-  sun.direction = {0.0, 0.0, 1.0};
-  sun.radius_rad = kSunRadius_rad;
-  SurveyedLight light;
-  light.parts.pieces = pieces_of(sun);
-  light.parts.planned.emplace_back();
-  light.parts.planned.front().passes.push_back({550.0, {1.0, 1.0, 1.0}});
-  for (std::size_t k = 0; k < 20; ++k) {
-    light.ghosts.push_back(k);
-    light.light_fractions.push_back(1.0);
-    light.wholes.push_back(blurred_ghost(k));
-  }
-  light.blurs.push_back(light.wholes);
-  SurveyedFrame frame;
-  frame.lights.push_back(light);
-  FrameSettings settings;
-  settings.frame = {160, 90, 0, 0, 160, 90, 0.01};
+  SurveyedFrame frame = sun_frame(20, 1, 4.0);
+  const SurveyedLight& light = frame.lights.front();
+  const FrameSettings settings = small_frame();
   std::vector<double> before;
   int changes = 0;
   double largest = 0.0;
@@ -281,6 +292,26 @@ TEST_CASE("as errors grow steadily, ghosts fade from one image into another, and
   // With one choice of clusters at a time a step was 0.2 of the frame's squared error.
   CHECK(largest < 0.15 * settings.area_error * settings.area_error * settings.frame.width * settings.frame.height);
   CHECK(changes > 1000);
+}
+
+TEST_CASE("images share the squared error by their ghosts, and those of overlapping pieces have less of it") {
+  const FrameSettings settings = small_frame();
+  const auto images = [&](std::size_t ghosts, int across) {
+    return blurred_images(sun_frame(ghosts, across, 1.0), settings);
+  };
+  CHECK(images(1, 1).front().error_fraction == 1.0);
+  const std::vector<BlurredImage> several = images(20, 1);
+  REQUIRE(several.size() > 2);
+  double sum = 0.0;
+  for (const BlurredImage& image : several) sum += image.error_fraction;
+  CHECK(sum > 1.0);
+  CHECK(sum < 1.0 + 0.5 * static_cast<double>(several.size()));
+  const auto by_ghosts = [](const BlurredImage& a, const BlurredImage& b) { return a.pairs.size() < b.pairs.size(); };
+  const auto [few, many] = std::ranges::minmax_element(several, by_ghosts);
+  CHECK(few->error_fraction < many->error_fraction);
+  // All four pieces lie one upon the other.
+  const std::vector<BlurredImage> divided = images(1, 2);
+  for (const BlurredImage& image : divided) CHECK(image.error_fraction <= 0.25 * (1.0 + 1e-12));
 }
 
 TEST_CASE("a bright ghost beside the frame is no part of the peak, which changes steadily as it comes in") {
