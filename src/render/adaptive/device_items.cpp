@@ -121,9 +121,9 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
-        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, all.starts, items, groups, error, plan->min_peak,
-                                             kept.reads_pictures},
-                                 image, drawing);
+        return kept.device->draw(
+            AdaptiveJob{frame, iris, all.paths, all.starts, items, groups, error, plan->min_peak, kept.reads_pictures},
+            image, drawing);
       },
       context);
 }

@@ -112,8 +112,8 @@ PlannedPass merged(const Scene& scene, const Item& item, std::span<const Planned
   return all;
 }
 
-// A fitted item counts as a typical traced one, which takes 92 to 111 rays on average (nikon-80-200). The number of rays
-// that it takes says little, since none of them fails.
+// A fitted item counts as a typical traced one, which takes 92 to 111 rays on average (nikon-80-200). The number of
+// rays that it takes says little, since none of them fails.
 constexpr double kRaysOfFitted = 100.0;
 
 // Preview: the rays of one wavelength serve for all.
