@@ -305,13 +305,13 @@ TEST_CASE("images share the squared error by their ghosts, and those of overlapp
   double sum = 0.0;
   for (const BlurredImage& image : several) sum += image.error_fraction;
   CHECK(sum > 1.0);
-  CHECK(sum < 1.0 + 0.5 * static_cast<double>(several.size()));
+  CHECK(sum < 0.8 * static_cast<double>(several.size()));
   const auto by_ghosts = [](const BlurredImage& a, const BlurredImage& b) { return a.pairs.size() < b.pairs.size(); };
   const auto [few, many] = std::ranges::minmax_element(several, by_ghosts);
   CHECK(few->error_fraction < many->error_fraction);
   // All four pieces lie one upon the other.
   const std::vector<BlurredImage> divided = images(1, 2);
-  for (const BlurredImage& image : divided) CHECK(image.error_fraction <= 0.25 * (1.0 + 1e-12));
+  for (const BlurredImage& image : divided) CHECK(image.error_fraction <= 0.75 * (1.0 + 1e-12));
 }
 
 TEST_CASE("a bright ghost beside the frame is no part of the peak, which changes steadily as it comes in") {

@@ -223,6 +223,18 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("adaptive draws the pieces of a divided light as well as a frame, though their errors add up") {
+  const LensState lens = test::bundled("planar-50", {.f_number = 1.4});
+  test::Settings settings = test::green(frame_on_sensor(lens, 120, 80));
+  settings.scope = GhostScope::All;
+  settings.set_grid(96);
+  Light light = test::light_at(lens, settings.frame, {0.7, 0.33});
+  light.radius_rad = kPi / 180.0;
+  const Image pieces = test::flare_of("bundle", lens, {&light, 1}, settings).image;
+  // 43 where every image of pieces makes the error of a frame.
+  CHECK(psnr_db(pieces, test::flare_of("adaptive", lens, {&light, 1}, settings).image) > 55.0);
+}
+
 TEST_CASE("the pieces of a divided light have the colours of points over it") {
   const LensState lens = test::bundled("heliar", {.f_number = 16.0});
   test::Settings settings;
