@@ -300,7 +300,7 @@ TEST_CASE("images share the squared error by their ghosts, and those of overlapp
     return blurred_images(sun_frame(ghosts, across, 1.0), settings);
   };
   CHECK(images(1, 1).front().error_fraction == 1.0);
-  const std::vector<BlurredImage> several = images(20, 1);
+  const std::vector<BlurredImage> several = images(150, 1);
   REQUIRE(several.size() > 2);
   double sum = 0.0;
   for (const BlurredImage& image : several) sum += image.error_fraction;
