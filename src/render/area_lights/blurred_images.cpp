@@ -156,7 +156,7 @@ struct Tally {
 // Blurring removes most of the errors: with kBlurred times the squares, discs are as close to sums of points, and with
 // 10 times they are not.
 void divide_error(std::span<BlurredImage> images, std::span<const Tally> tallies) {
-  constexpr double kFew = 16.0, kBlurred = 3.0;
+  constexpr double kFew = 16.0, kBlurred = 5.0;
   double all = kFew;
   for (const Tally& tally : tallies) all += tally.ghosts;
   for (std::size_t k = 0; k < images.size(); ++k) {
