@@ -19,9 +19,11 @@ constexpr int kRims = 2;
 constexpr int kPicture = 4;  // factor of more rays for a picture's details
 constexpr int kFirstSide = 17;  // of the search
 // A light beyond the image circle has no pupil, which takes whole grids of rays to find out, so they must not be the
-// finest. The direct image's pupil has no islands and spans many cells of this grid.
+// finest. The direct image's pupil has no islands and spans several cells of this grid. That of a fisheye is hardly
+// larger than a cell of the first grid over its wide window, so that the search may end with a part of it.
 constexpr pupils::PupilEffort kEffort = pupils::PupilEffort::Finer;
 constexpr double kMargin = 0.02;  // of a pupil's size, on each side, for another wavelength's
+constexpr int kMaxExtensions = 12;  // of a rectangle with a part of the pupil
 constexpr float kNearRim = 0.1F;  // of the clear height; of the stop radius
 
 // Most cells are open or closed as a whole.
@@ -58,26 +60,47 @@ bool is_cut_by_rims(const RayGrid& grid) {
   return false;
 }
 
-// True if light may pass at the border of the grid, except where that is the window's border.
-bool is_cut_off(const RayGrid& grid, const EntranceWindow& window) {
+// The rectangle, extended by half its size on each side where light may pass at the border of the grid, but not beyond
+// the window.
+Rectangle extended_where_open(const RayGrid& grid, const EntranceWindow& window) {
   const int last = grid.cells();
   const auto open_along = [&](int x, int y, int dx, int dy) {
     for (int k = 0; k <= last; ++k)
       if (grid.blocked[grid.at(x + k * dx, y + k * dy)] <= 0.0F) return true;
     return false;
   };
-  const Rectangle& box = grid.box();
-  return (box.low.x > window.min_mm.x && open_along(0, 0, 0, 1)) ||
-         (box.high.x < window.max_mm.x && open_along(last, 0, 0, 1)) ||
-         (box.low.y > window.min_mm.y && open_along(0, 0, 1, 0)) ||
-         (box.high.y < window.max_mm.y && open_along(0, last, 1, 0));
+  Rectangle box = grid.box();
+  const Vec2 by = (box.high - box.low) * 0.5;
+  if (open_along(0, 0, 0, 1)) box.low.x = std::max(box.low.x - by.x, window.min_mm.x);
+  if (open_along(last, 0, 0, 1)) box.high.x = std::min(box.high.x + by.x, window.max_mm.x);
+  if (open_along(0, 0, 1, 0)) box.low.y = std::max(box.low.y - by.y, window.min_mm.y);
+  if (open_along(0, last, 1, 0)) box.high.y = std::min(box.high.y + by.y, window.max_mm.y);
+  return box;
+}
+
+// The rectangle around the rays that get through, and a cell more on each side, which the pupil's border may cross.
+// Some must get through.
+Rectangle around_open(const RayGrid& grid) {
+  const Vec2 step = grid.step_mm();
+  Rectangle open{grid.box().high, grid.box().low};
+  for (int iy = 0; iy <= grid.cells(); ++iy)
+    for (int ix = 0; ix <= grid.cells(); ++ix) {
+      if (grid.blocked[grid.at(ix, iy)] > 0.0F) continue;
+      const Vec2 at = grid.box().low + Vec2{ix * step.x, iy * step.y};
+      open.low = {std::min(open.low.x, at.x - step.x), std::min(open.low.y, at.y - step.y)};
+      open.high = {std::max(open.high.x, at.x + step.x), std::max(open.high.y, at.y + step.y)};
+    }
+  return open;
+}
+
+Rectangle within(const Rectangle& box, const EntranceWindow& window) {
+  return {{std::max(box.low.x, window.min_mm.x), std::max(box.low.y, window.min_mm.y)},
+          {std::min(box.high.x, window.max_mm.x), std::min(box.high.y, window.max_mm.y)}};
 }
 
 Rectangle widened(const Rectangle& box, const EntranceWindow& window) {
   const Vec2 margin = (box.high - box.low) * kMargin;
-  const Vec2 low = box.low - margin, high = box.high + margin;
-  return {{std::max(low.x, window.min_mm.x), std::max(low.y, window.min_mm.y)},
-          {std::min(high.x, window.max_mm.x), std::min(high.y, window.max_mm.y)}};
+  return within({box.low - margin, box.high + margin}, window);
 }
 
 }  // namespace
@@ -114,12 +137,20 @@ RayGrid DirectMeter::traced(const ReflectanceTables& tables, const Rectangle& bo
 
 double DirectMeter::flux_mm2(const ReflectanceTables& tables) const {
   const auto found = pupil(tables);
-  return found ? open_flux(traced(tables, *found)) * light_.shared_flux() : 0.0;
+  return found ? flux_mm2(tables, *found) : 0.0;
 }
 
 double DirectMeter::flux_mm2(const ReflectanceTables& tables, const Rectangle& near) const {
-  const RayGrid grid = traced(tables, widened(near, window_));
-  return is_cut_off(grid, window_) ? flux_mm2(tables) : open_flux(grid) * light_.shared_flux();
+  RayGrid grid = traced(tables, widened(near, window_));
+  bool is_extended = false;
+  for (int k = 0; k < kMaxExtensions; ++k) {
+    const Rectangle box = extended_where_open(grid, window_);
+    if (box == grid.box()) break;
+    grid = traced(tables, box);
+    is_extended = true;
+  }
+  if (is_extended) grid = traced(tables, within(around_open(grid), window_));
+  return open_flux(grid) * light_.shared_flux();
 }
 
 }  // namespace contrejour::inline internal

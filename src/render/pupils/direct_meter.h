@@ -17,11 +17,12 @@ class DirectMeter {
   // The lens must outlive it.
   DirectMeter(const LensState& lens, const LightSource& light);
 
-  // A rectangle with a margin that encloses every ray that gets through at the tables' wavelength. None if no ray does.
+  // A rectangle with a margin around the rays that get through at the tables' wavelength, or around most of them, from
+  // where flux_mm2() finds all. None if no ray does.
   [[nodiscard]] std::optional<Rectangle> pupil(const ReflectanceTables& tables) const;
 
-  // Flux at that wavelength, mm^2 at E0 = 1, to 5e-4. near: pupil() at another wavelength; if it does not contain this
-  // wavelength's pupil, that is searched.
+  // Flux at that wavelength, mm^2 at E0 = 1, to 5e-4. near: pupil() at another wavelength; if it contains only a part
+  // of this wavelength's pupil, it is extended.
   [[nodiscard]] double flux_mm2(const ReflectanceTables& tables, const Rectangle& near) const;
   [[nodiscard]] double flux_mm2(const ReflectanceTables& tables) const;
 
