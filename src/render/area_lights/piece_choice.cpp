@@ -50,19 +50,6 @@ double dimmed_error(const GhostBlur& ghost, double flux_change, double peak) {
 double left_of(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
 double flux_left_of(double flux_error, int across) { return flux_error / (static_cast<double>(across) * across); }
 
-// The error of the light's rim if it is divided: the shape of a piece is not drawn, so that the rim is as soft as a
-// piece is wide. It shows where a ghost is smaller than the image of the light. For a spot, 0.25 of a piece's radius
-// makes the error of a sum of soft pieces in place of a disc, to a tenth, for 2 to 12 pieces across.
-double rim_error(const GhostBlur& ghost, int across, double peak) {
-  constexpr double kDisplaced = 0.25;  // of the blur's radius over the pieces across
-  constexpr double kSharp_px = 0.3;
-  if (across == 1 || !(ghost.level > 0.0)) return 0.0;
-  const Vec2 blur = ghost.blur_px, size = ghost.size_px;
-  const double spot = dot(blur, blur) / (dot(blur, blur) + dot(size, size)),
-               length_px = ghost.visible * std::numbers::pi * (blur.x + blur.y);
-  return spot * length_px * misfit_error(ghost.level / peak, std::max(size.x, kSharp_px), kDisplaced * blur.x / across);
-}
-
 }  // namespace
 
 double doubt_about(const GhostOfArea& ghost, const LightPiece& whole, const AreaBudget& budget) {
@@ -127,28 +114,11 @@ int finer_than(int across) { return *std::ranges::upper_bound(kAcross, across); 
 
 namespace {
 
-double pieces_at(std::size_t place) { return static_cast<double>(kAcross[place]) * kAcross[place]; }
-
 // A ghost's divisions: the error that each of kAcross leaves, and what the next finer one saves for each further piece.
 struct Divisions {
   std::array<double, kAcross.size()> left{};
   std::array<double, kAcross.size() - 1> gain{};
   double from = 0.0;  // a place among kAcross, and the part of the next one: no coarser ones are chosen
-
-  // Sets the gains from `left`. A step may make the error larger, and the next ones smaller: several steps then count
-  // as one, and those after the least error gain nothing.
-  void set_gains() {
-    for (std::size_t k = 1; k < left.size(); ++k) left[k] = std::min(left[k], left[k - 1]);
-    std::size_t from = 0;
-    while (from < gain.size()) {
-      const auto gain_to = [&](std::size_t to) { return (left[from] - left[to]) / (pieces_at(to) - pieces_at(from)); };
-      std::size_t best = from + 1;
-      for (std::size_t to = from + 2; to < left.size(); ++to)
-        if (gain_to(to) > gain_to(best)) best = to;
-      const double each = gain_to(best);
-      while (from < best) gain[from++] = each;
-    }
-  }
 
   // The place at which the ghost is divided if steps are worth making from this gain on. A step is made in part over
   // a range of gains, so that no ghost's division depends on the others' order. The range nearly reaches to the next
@@ -177,7 +147,8 @@ void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
     Divisions& one = divisions[g];
     one.from = static_cast<double>(std::ranges::find(kAcross, ghosts[g].across) - kAcross.begin()) + ghosts[g].finer;
     for (std::size_t k = 0; k < kAcross.size(); ++k) one.left[k] = left(ghosts[g], kAcross[k]);
-    one.set_gains();
+    for (std::size_t k = 0; k < one.gain.size(); ++k)
+      one.gain[k] = (one.left[k] - one.left[k + 1]) / (kAcross[k + 1] * kAcross[k + 1] - kAcross[k] * kAcross[k]);
     largest = std::max(largest, one.gain.front());
   }
   const auto error = [&](double least_gain) {
@@ -202,9 +173,7 @@ void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
 }  // namespace
 
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
-  refine(ghosts, budget.squares, [&](const GhostOfArea& ghost, int across) {
-    return left_of(ghost.squares, across) + rim_error(ghost.blur, across, budget.peak);
-  });
+  refine(ghosts, budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
   refine(ghosts, kFluxAllowed * budget.flux,
          [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_error, across); });
 }

@@ -199,21 +199,6 @@ TEST_CASE("a ghost that no map fits does not change to another ghost's blur as i
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 1.1 * seen).clusters.size() == 1);
 }
 
-TEST_CASE("a spot that shows the light's rim stays whole, unless its own map makes a larger error than soft pieces") {
-  const auto across = [](double size_px, double squares) {
-    std::vector<GhostOfArea> ghosts(1);
-    ghosts.front().squares = squares;
-    ghosts.front().blur.level = ghosts.front().blur.visible = 1.0;
-    ghosts.front().blur.blur_px = {20.0, 20.0};
-    ghosts.front().blur.size_px = {size_px, size_px};
-    choose_pieces(ghosts, {.peak = 1.0, .squares = 0.1, .flux = 1.0});
-    return place(ghosts.front());
-  };
-  CHECK(across(0.2, 5.0) == 0.0);
-  CHECK(across(0.2, 100.0) > 2.0);
-  CHECK(across(40.0, 5.0) > 0.0);
-}
-
 TEST_CASE("errors of a light's pieces that overlap add up") {
   const Frame frame{160, 90, 0, 0, 160, 90, 0.01};
   GhostBlur wide = large_ghost(850.0, 1.0, 4.0), part = large_ghost(800.0, 0.9, 3.8);
