@@ -19,8 +19,8 @@ constexpr int kRims = 2;
 constexpr int kPicture = 4;  // factor of more rays for a picture's details
 constexpr int kFirstSide = 17;  // of the search
 // A light beyond the image circle has no pupil, which takes whole grids of rays to find out, so they must not be the
-// finest. The direct image's pupil has no islands and spans several cells of this grid. That of a fisheye is hardly
-// larger than a cell of the first grid over its wide window, so that the search may end with a part of it.
+// finest. The direct image's pupil has no islands, and spans several cells of this grid if the lens is no fisheye. A
+// fisheye's is hardly larger than a cell over the wide window, so that the search may end with a part of it.
 constexpr pupils::PupilEffort kEffort = pupils::PupilEffort::Finer;
 constexpr double kMargin = 0.02;  // of a pupil's size, on each side, for another wavelength's
 constexpr int kMaxExtensions = 12;  // of a rectangle with a part of the pupil
