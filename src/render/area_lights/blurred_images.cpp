@@ -12,7 +12,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 constexpr double kLevelFraction = 0.1;    // of the frame's squared error: for coarse pixels,
-constexpr double kMisfitFraction = 0.3;   // and for ghosts that are drawn with another ghost's blur
+constexpr double kMisfitFraction = 0.25;  // and for ghosts that are drawn with another ghost's blur
 constexpr double kFirstFraction = 0.02;   // of that: error of a ghost that saves an image, in the first choice tried
 
 // Ghosts that may be drawn together: those of an undivided light, or those of all pieces of all divided lights.

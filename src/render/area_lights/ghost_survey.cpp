@@ -13,7 +13,7 @@ namespace contrejour::inline internal::area {
 namespace {
 
 // The squared error that lights may make by being divided too coarsely, over the frame's squared error.
-constexpr double kPiecesFraction = 1.2;
+constexpr double kPiecesFraction = 1.1;
 
 double middle_wavelength(const PlannedLight& light) { return light.passes[light.passes.size() / 2].lambda_nm; }
 
@@ -152,8 +152,8 @@ Result<std::vector<SurveyedLight>> GhostSurvey::cut_as_chosen(std::span<const Gh
       light.wholes.push_back(dimmed(ghost.blur, part));
       if (across > 1) finer.insert(which);
     };
-    add(ghost.across, 1.0 - ghost.finer);
-    if (ghost.finer > 0.0) add(finer_than(ghost.across), ghost.finer);
+    for (std::size_t k = 0; k < kAcross.size(); ++k)
+      if (ghost.parts[k] > 0.0) add(kAcross[k], ghost.parts[k]);
   }
   auto divided = cut(finer);
   if (!divided) return tl::unexpected(divided.error());

@@ -11,7 +11,6 @@
 namespace contrejour::inline internal::area {
 namespace {
 
-constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
 constexpr double kFasterThanAngle = 3.0;  // assumed relative change of a motion per unit of angle (tangent)
 // Smaller errors of a ghost are not examined, and those twice as large count in full:
 constexpr double kSquaresFraction = 0.0015;  // of the allowed error
@@ -49,6 +48,19 @@ double dimmed_error(const GhostBlur& ghost, double flux_change, double peak) {
 // flux.
 double left_of(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
 double flux_left_of(double flux_error, int across) { return flux_error / (static_cast<double>(across) * across); }
+
+// The error of the light's rim if it is divided: the shape of a piece is not drawn, so that the rim is as soft as a
+// piece is wide. It shows where a ghost is smaller than the image of the light. For a spot, 0.25 of a piece's radius
+// makes the error of a sum of soft pieces in place of a disc, to a tenth, for 2 to 12 pieces across.
+double rim_error(const GhostBlur& ghost, int across, double peak) {
+  constexpr double kDisplaced = 0.25;  // of the blur's radius over the pieces across
+  constexpr double kSharp_px = 0.3;
+  if (across == 1 || !(ghost.level > 0.0)) return 0.0;
+  const Vec2 blur = ghost.blur_px, size = ghost.size_px;
+  const double spot = dot(blur, blur) / (dot(blur, blur) + dot(size, size)),
+               length_px = ghost.visible * std::numbers::pi * (blur.x + blur.y);
+  return spot * length_px * misfit_error(ghost.level / peak, std::max(size.x, kSharp_px), kDisplaced * blur.x / across);
+}
 
 }  // namespace
 
@@ -110,45 +122,83 @@ void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const
   ghost.squares = std::min(ghost.squares, 2.0 * all * all * bright.area_px);
 }
 
-int finer_than(int across) { return *std::ranges::upper_bound(kAcross, across); }
-
 namespace {
 
-// A ghost's divisions: the error that each of kAcross leaves, and what the next finer one saves for each further piece.
-struct Divisions {
-  std::array<double, kAcross.size()> left{};
-  std::array<double, kAcross.size() - 1> gain{};
-  double from = 0.0;  // a place among kAcross, and the part of the next one: no coarser ones are chosen
+using Parts = std::array<double, kAcross.size()>;
 
-  // The place at which the ghost is divided if steps are worth making from this gain on. A step is made in part over
-  // a range of gains, so that no ghost's division depends on the others' order. The range nearly reaches to the next
-  // step: between steps a small change of all errors would change the least gain, and the other divisions, by far.
-  [[nodiscard]] double at(double least_gain) const {
-    constexpr double kWholeStep = 8.0;  // times the least gain
-    double place = 0.0;
-    for (const double one : gain) place += std::clamp(std::log(one / least_gain) / std::log(kWholeStep), 0.0, 1.0);
-    return std::max(place, from);
+double pieces_at(std::size_t place) { return static_cast<double>(kAcross[place]) * kAcross[place]; }
+
+// The error that a division of a ghost's light leaves: as it counts in the sum of all errors, and as divisions of the
+// ghost are compared. They differ by the rim, for which other ghosts need not be divided more finely.
+struct ErrorLeft {
+  double counted = 0.0, compared = 0.0;
+};
+
+// A ghost's divisions, one for each of kAcross, and what each step to the next one saves for each further piece.
+struct Divisions {
+  Parts counted{};
+  Parts left{};  // compared: the least that this division or a coarser one leaves
+  std::array<double, kAcross.size() - 1> gain{};
+  Parts reached{};  // the part of the ghost's light that is divided at least as finely, before
+  // The part of the light that is divided if all steps are made. It is less than 1 if they save little together: a
+  // ghost would otherwise pass from no division to the finest one as soon as that saves anything.
+  double worth = 1.0;
+
+  // Sets all but `reached`, from the errors that each division leaves. A step may save less than those after it, or
+  // make the error larger: several steps then count as one, and no light is drawn with the divisions between. Gains
+  // never rise.
+  void set(const std::array<ErrorLeft, kAcross.size()>& errors) {
+    constexpr double kWorthwhile = 0.67;  // of the error, saved by all steps
+    for (std::size_t k = 0; k < left.size(); ++k)
+      left[k] = k > 0 ? std::min(errors[k].compared, left[k - 1]) : errors[k].compared;
+    // What no division saves does not count: other ghosts need not compensate for it.
+    for (std::size_t k = 0; k < left.size(); ++k) counted[k] = std::min(errors[k].counted, left[k] - left.back());
+    if (left.front() > 0.0) worth = std::min((1.0 - left.back() / left.front()) / kWorthwhile, 1.0);
+    for (std::size_t from = 0; from < gain.size();) {
+      const auto gain_to = [&](std::size_t to) { return (left[from] - left[to]) / (pieces_at(to) - pieces_at(from)); };
+      std::size_t best = from + 1;
+      for (std::size_t to = from + 2; to < left.size(); ++to)
+        if (gain_to(to) > gain_to(best)) best = to;
+      std::fill(gain.begin() + from, gain.begin() + best, gain_to(best));
+      from = best;
+    }
   }
-  // The error there. What the finest division leaves does not count: other ghosts need not compensate for it.
-  [[nodiscard]] double error(double place) const {
-    const std::size_t k = std::min(static_cast<std::size_t>(place), gain.size() - 1);
-    return std::lerp(left[k], left[k + 1], place - static_cast<double>(k)) - left.back();
+
+  // The part of the light that is divided at least as finely as each of kAcross, if steps are worth making from this
+  // gain on. A step is made in part over a range of gains, so that no ghost's division depends on the others' order.
+  // The range reaches about to the next step, so that mostly two divisions are drawn: between steps a small change of
+  // all errors would change the least gain, and the other divisions, by far.
+  [[nodiscard]] Parts at(double least_gain) const {
+    constexpr double kWholeStep = 6.0;  // times the least gain
+    Parts parts{1.0};
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      const double step = std::clamp(std::log(gain[k] / least_gain) / std::log(kWholeStep), 0.0, 1.0);
+      parts[k + 1] = std::max(worth * step, reached[k + 1]);
+    }
+    return parts;
+  }
+  // The error that counts there.
+  [[nodiscard]] double error(const Parts& at_least) const {
+    double sum = worth * counted.front();
+    for (std::size_t k = 0; k < gain.size(); ++k) sum -= at_least[k + 1] * (counted[k] - counted[k + 1]);
+    return sum;
   }
 };
 
-// Sets the divisions that together leave the error allowed: those above one common gain for each piece.
+// Sets the divisions that together leave the error allowed: those above one common gain for each piece. reached: by
+// ghost, the part of its light that is divided at least as finely as each of kAcross.
 template <class Left>
-void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
+void refine(std::span<const GhostOfArea> ghosts, double allowed, const Left& left, std::vector<Parts>& reached) {
   constexpr int kBisections = 50;
   constexpr double kRange = 1e-12;  // of the largest gain
   std::vector<Divisions> divisions(ghosts.size());
   double largest = 0.0;
   for (std::size_t g = 0; g < ghosts.size(); ++g) {
     Divisions& one = divisions[g];
-    one.from = static_cast<double>(std::ranges::find(kAcross, ghosts[g].across) - kAcross.begin()) + ghosts[g].finer;
-    for (std::size_t k = 0; k < kAcross.size(); ++k) one.left[k] = left(ghosts[g], kAcross[k]);
-    for (std::size_t k = 0; k < one.gain.size(); ++k)
-      one.gain[k] = (one.left[k] - one.left[k + 1]) / (kAcross[k + 1] * kAcross[k + 1] - kAcross[k] * kAcross[k]);
+    one.reached = reached[g];
+    std::array<ErrorLeft, kAcross.size()> errors;
+    for (std::size_t k = 0; k < kAcross.size(); ++k) errors[k] = left(ghosts[g], kAcross[k]);
+    one.set(errors);
     largest = std::max(largest, one.gain.front());
   }
   const auto error = [&](double least_gain) {
@@ -162,20 +212,27 @@ void refine(std::span<GhostOfArea> ghosts, double allowed, const Left& left) {
     const double middle = std::sqrt(few * many);
     (error(middle) > allowed ? few : many) = middle;
   }
-  for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    const double place = divisions[g].at(many);
-    const std::size_t k = std::min(static_cast<std::size_t>(place), kAcross.size() - 1);
-    ghosts[g].across = kAcross[k];
-    ghosts[g].finer = place - static_cast<double>(k);
-  }
+  for (std::size_t g = 0; g < ghosts.size(); ++g) reached[g] = divisions[g].at(many);
 }
 
 }  // namespace
 
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget) {
-  refine(ghosts, budget.squares, [](const GhostOfArea& ghost, int across) { return left_of(ghost.squares, across); });
-  refine(ghosts, kFluxAllowed * budget.flux,
-         [](const GhostOfArea& ghost, int across) { return flux_left_of(ghost.flux_error, across); });
+  std::vector<Parts> reached(ghosts.size(), Parts{1.0});
+  const auto squares_left = [&](const GhostOfArea& ghost, int across) {
+    const double squares = left_of(ghost.squares, across);
+    return ErrorLeft{squares, squares + rim_error(ghost.blur, across, budget.peak)};
+  };
+  const auto flux_left = [](const GhostOfArea& ghost, int across) {
+    const double flux = flux_left_of(ghost.flux_error, across);
+    return ErrorLeft{flux, flux};
+  };
+  refine(ghosts, budget.squares, squares_left, reached);
+  refine(ghosts, kFluxAllowed * budget.flux, flux_left, reached);
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    Parts& parts = ghosts[g].parts = reached[g];
+    for (std::size_t k = 0; k + 1 < parts.size(); ++k) parts[k] -= parts[k + 1];
+  }
 }
 
 }  // namespace contrejour::inline internal::area

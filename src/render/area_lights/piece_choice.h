@@ -3,6 +3,7 @@
 // caustics, or one that rims clip differently as the light moves, needs many.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "render/area_lights/ghost_blur.h"
 
 namespace contrejour::inline internal::area {
+
+inline constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};  // pieces across of the divisions to choose from
 
 // A ghost of a light with a size.
 struct GhostOfArea {
@@ -22,8 +25,8 @@ struct GhostOfArea {
   double doubt = 0.0;  // 0 to 1: the weight of the errors that the parts show
   // The errors if the light stays undivided: squared, summed over the frame, in squares of the peak; and of the flux.
   double squares = 0.0, flux_error = 0.0;
-  int across = 1;  // pieces of the light
-  double finer = 0.0;  // the part of the ghost's light that is drawn with the next finer division (finer_than)
+  // The part of the ghost's light that is drawn with each of kAcross; together 1, and mostly one or two of them.
+  std::array<double, kAcross.size()> parts{1.0};
 };
 
 // The errors that a frame may make, and what they are relative to.
@@ -43,12 +46,9 @@ struct AreaBudget {
 void foresee_errors(GhostOfArea& ghost, const LightPiece& whole, std::span<const LightPiece> parts,
                     const AreaBudget& budget);
 
-// The next finer division: pieces across.
-[[nodiscard]] int finer_than(int across);
-
-// Sets `across` and `finer` of all ghosts, so that together they stay within the budget with about the fewest pieces. A
-// step that is hardly worth making is made in part: so a ghost fades from one division into the next as its light
-// moves, and neither jumps nor makes others jump.
+// Sets `parts` of all ghosts, so that together they stay within the budget with about the fewest pieces. A step that is
+// hardly worth making is made in part: so a ghost fades from one division into the next as its light moves, and neither
+// jumps nor makes others jump. The next one may be much finer, if those between are worse than both.
 void choose_pieces(std::span<GhostOfArea> ghosts, const AreaBudget& budget);
 
 }  // namespace contrejour::inline internal::area

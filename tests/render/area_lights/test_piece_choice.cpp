@@ -20,18 +20,19 @@ using namespace contrejour::area;
 
 namespace {
 
-constexpr std::array kAcross{1, 2, 3, 4, 6, 8, 12};
-
 double left(double squares, int across) { return squares / (static_cast<double>(across) * across * across); }
 
 double left(const GhostOfArea& ghost) {
-  const double here = left(ghost.squares, ghost.across);
-  return ghost.finer > 0.0 ? std::lerp(here, left(ghost.squares, finer_than(ghost.across)), ghost.finer) : here;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kAcross.size(); ++k) sum += ghost.parts[k] * left(ghost.squares, kAcross[k]);
+  return sum;
 }
 
-// Its place among the divisions, and the part of the next one.
+// Its place among the divisions, as the mean by light.
 double place(const GhostOfArea& ghost) {
-  return static_cast<double>(std::ranges::find(kAcross, ghost.across) - kAcross.begin()) + ghost.finer;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kAcross.size(); ++k) sum += ghost.parts[k] * static_cast<double>(k);
+  return sum;
 }
 
 std::vector<GhostOfArea> divided(std::initializer_list<double> squares, double allowed) {
@@ -197,6 +198,53 @@ TEST_CASE("a ghost that no map fits does not change to another ghost's blur as i
   const std::vector<PieceGhost> ghosts{{&wide, 0, 0}, {&torn, 0, 1}};
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 0.9 * seen).clusters.size() == 2);
   CHECK(blur_clusters(ghosts, piece, frame, 1.0, 1.1 * seen).clusters.size() == 1);
+}
+
+namespace {
+
+// A spot, whose light makes such an image.
+GhostOfArea spot(double size_px, double squares, double blur_px = 20.0) {
+  GhostOfArea ghost;
+  ghost.squares = squares;
+  ghost.blur.level = ghost.blur.visible = 1.0;
+  ghost.blur.blur_px = {blur_px, blur_px};
+  ghost.blur.size_px = {size_px, size_px};
+  return ghost;
+}
+
+}  // namespace
+
+TEST_CASE("a spot that shows the light's rim stays whole, unless its own map makes a larger error than soft pieces") {
+  const auto across = [](double size_px, double squares) {
+    // A ghost that shows no rim can be divided instead.
+    std::vector<GhostOfArea> ghosts{spot(size_px, squares), spot(200.0, 0.3 * squares)};
+    choose_pieces(ghosts, {.peak = 1.0, .squares = 1.05 * squares, .flux = 1.0});
+    return place(ghosts.front());
+  };
+  CHECK(across(0.2, 5.0) == 0.0);
+  CHECK(across(0.2, 200.0) > 0.2);
+  CHECK(across(40.0, 5.0) > 0.2);
+}
+
+TEST_CASE("a spot passes steadily from one division to a much finer one, past those that are worse than both") {
+  std::vector<double> parts_before;
+  bool passes_over = false;
+  for (double squares = 2.0; squares < 40.0; squares *= 1.01) {
+    CAPTURE(squares);
+    std::vector<GhostOfArea> ghosts{spot(0.2, squares), spot(200.0, 5.0), spot(100.0, 2.0)};
+    choose_pieces(ghosts, {.peak = 1.0, .squares = 0.5, .flux = 1.0});
+    const auto& parts = ghosts.front().parts;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      CHECK(parts[k] >= 0.0);
+      sum += parts[k];
+      if (!parts_before.empty()) CHECK(std::abs(parts[k] - parts_before[k]) < 0.1);
+    }
+    CHECK(sum == test::approx(1.0));
+    passes_over = passes_over || (parts[0] > 0.1 && parts[1] + parts[2] + parts[3] == 0.0 && parts[0] < 0.9);
+    parts_before.assign(parts.begin(), parts.end());
+  }
+  CHECK(passes_over);
 }
 
 TEST_CASE("errors of a light's pieces that overlap add up") {
