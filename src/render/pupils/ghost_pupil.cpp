@@ -54,6 +54,16 @@ std::vector<double> outer_wavelengths(std::span<const double> lambda_nm) {
   return outer_nm;
 }
 
+// The wavelengths at which a symmetric pupil is searched until it is found: nearly always the first one. Small ghosts
+// may be open at one end of the spectrum only, such as the Canon 70-200's 10-20 at 135 mm and f/32, which is red.
+std::vector<double> searched_wavelengths(const PupilRequest& request) {
+  const double middle_nm = middle_wavelength(request);
+  std::vector<double> order_nm{middle_nm};
+  for (const double outer_nm : {request.lambda_nm.back(), request.lambda_nm.front()})
+    if (outer_nm != middle_nm) order_nm.push_back(outer_nm);
+  return order_nm;
+}
+
 bool is_symmetric(const PupilRequest& request) { return has_axial_symmetry(request.steps.lens(), request.ghost); }
 
 // A lens without symmetries has one box, found by grids over the whole window. The first wavelength's box is the guess
@@ -134,16 +144,20 @@ GhostPupil search_ghost_pupil(const PupilRequest& request) {
   if (request.lambda_nm.empty()) return {};
   if (!is_symmetric(request)) return find_box_without_symmetry(request);
   const LightFrame light(request.light);
-  const double middle_nm = middle_wavelength(request);
-  const PupilRays rays(
-      PacketPath(request.steps.at(middle_nm), request.ghost, {{0.0, 0.0, request.window.z_mm}, light.source}),
-      request.window);
-  const Pupil found = find_pupil(rays, {.along_meridian = true});
-  GhostPupil pupil{{}, found.rays, found.rays * rays.path.steps().size()};
-  for (const Rectangle& box : found.boxes) {
-    if (is_mirror_image(box)) continue;
-    pupil.boxes.push_back(with_side_margin(box));
-    if (pupil.boxes.back().low.y >= 0.0) pupil.boxes.push_back(mirrored(pupil.boxes.back()));
+  GhostPupil pupil;
+  for (const double lambda_nm : searched_wavelengths(request)) {
+    const PupilRays rays(
+        PacketPath(request.steps.at(lambda_nm), request.ghost, {{0.0, 0.0, request.window.z_mm}, light.source}),
+        request.window);
+    const Pupil found = find_pupil(rays, {.along_meridian = true, .only_through_line = pupil.rays > 0});
+    pupil.rays += found.rays;
+    pupil.surface_hits += found.rays * rays.path.steps().size();
+    for (const Rectangle& box : found.boxes) {
+      if (is_mirror_image(box)) continue;
+      pupil.boxes.push_back(with_side_margin(box));
+      if (pupil.boxes.back().low.y >= 0.0) pupil.boxes.push_back(mirrored(pupil.boxes.back()));
+    }
+    if (!pupil.boxes.empty()) break;
   }
   return pupil;
 }

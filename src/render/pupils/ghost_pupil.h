@@ -18,7 +18,7 @@ struct PupilRequest {
   Ghost ghost;
   LightSource light;
   EntranceWindow window;  // of the light, in the frame for the ghost's symmetry (LightWindows)
-  std::span<const double> lambda_nm;  // rising; searched at the middle one, fitted to the outer ones
+  std::span<const double> lambda_nm;  // rising; searched at the middle one first, fitted to the outer ones
   double stop_times = 1.0;  // factor on the stop's radius
   const Context* context = nullptr;  // once it is cancelled, boxes may be missing; null: never
 };
@@ -31,8 +31,9 @@ struct GhostPupil {
 
 [[nodiscard]] GhostPupil find_ghost_pupil(const PupilRequest& request);
 
-// The same in two steps, the second only for ghosts that are drawn: boxes for the middle wavelength, which may overlap,
-// and from them those for all wavelengths. (Lenses without symmetries are searched in one step.)
+// The same in two steps, the second only for ghosts that are drawn: boxes for the middle wavelength, or for an outer
+// one if nothing gets through there, which may overlap; and from them those for all wavelengths. (Lenses without
+// symmetries are searched in one step.)
 [[nodiscard]] GhostPupil search_ghost_pupil(const PupilRequest& request);
 [[nodiscard]] GhostPupil fit_ghost_pupil(const PupilRequest& request, GhostPupil searched);
 
@@ -45,7 +46,7 @@ struct GhostPupil {
 // True if the box is the mirror image of one on the other side of the axis of symmetry.
 [[nodiscard]] bool is_mirror_image(const Rectangle& box);
 
-// The wavelength at which a pupil is searched.
+// The wavelength at which a pupil is searched first.
 [[nodiscard]] double middle_wavelength(const PupilRequest& request);
 
 }  // namespace contrejour::inline internal::pupils

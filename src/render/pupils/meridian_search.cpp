@@ -130,7 +130,14 @@ class MeridianSearch {
 
 }  // namespace
 
-Pupil search_meridian(const PupilRays& rays) { return MeridianSearch(rays).run(); }
+Pupil search_meridian(const PupilRays& rays, const PupilSearch& search) {
+  if (!search.only_through_line) return MeridianSearch(rays).run();
+  MeridianScan line(rays.path);
+  const bool is_open = !line.find({rays.window.min_mm.x, rays.window.max_mm.x}, {}).empty();
+  Pupil pupil = is_open ? MeridianSearch(rays).run() : Pupil{};
+  pupil.rays += line.rays();
+  return pupil;
+}
 
 Pupil search_meridian_around(const PupilRays& rays, const Rectangle& hint) {
   const Rectangle window = upper_half(rays.window);

@@ -23,7 +23,8 @@ PupilEffort effort_for_grid(int side) {
 }
 
 Pupil find_pupil(PupilRays& rays, const PupilSearch& search, RayGrid& grid) {
-  if (search.along_meridian) return search.hint ? search_meridian_around(rays, *search.hint) : search_meridian(rays);
+  if (search.along_meridian)
+    return search.hint ? search_meridian_around(rays, *search.hint) : search_meridian(rays, search);
   return search.hint ? search_window_around(rays, *search.hint, grid) : search_window(rays, search, grid);
 }
 

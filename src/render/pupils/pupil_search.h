@@ -58,6 +58,9 @@ struct PupilRays {
 
 struct PupilSearch {
   bool along_meridian = false;
+  // Along the meridian, without a hint: searches only if light gets through on the line y = 0, which a hundred rays
+  // tell. For a pupil that was not found at another wavelength.
+  bool only_through_line = false;
   std::optional<Rectangle> hint = std::nullopt;
   // Over a window without a hint. A side below kSearchSide is for well-behaved paths.
   PupilEffort effort = PupilEffort::Finest;

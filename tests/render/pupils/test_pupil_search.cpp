@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the search for boxes of the pupil, each against the rays of a dense grid.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include <doctest/doctest.h>
 
 #include "render/pupils/clearance_grid.h"
+#include "render/pupils/ghost_pupil.h"
 #include "render/pupils/kept_pupils.h"
 #include "render/pupils/meridian_scan.h"
 #include "render/pupils/pupil_search.h"
 #include "render/pupils/stop_newton_step.h"
 #include "render/ray_maps/ghost_scene.h"
+#include "support/scenes.h"
 
 using namespace contrejour;
 using namespace contrejour::pupils;
@@ -113,6 +117,24 @@ TEST_CASE("a pupil between the meridian's rays, all of which fail, is found wher
   const Pupil found = find_pupil(PupilRays(s.packets(), s.window), {.along_meridian = true});
   CHECK(std::ranges::any_of(found.boxes, [&](const Rectangle& box) { return holds(box, *open); }));
   CHECK(found.rays < 400);
+}
+
+TEST_CASE("a pupil that only one end of the spectrum opens is found") {
+  // The Canon's ghost 10-20 is open from 540 nm on. It was searched at the middle wavelength alone.
+  const LensState lens = test::bundled("canon-70-200", {.focal_length_mm = 135.0, .f_number = 32.0});
+  const Light light = test::light_at(lens, frame_on_sensor(lens, 640, 360), {0.66, 0.38});
+  const LightSource source{light.direction};
+  const EntranceWindow window = LightWindows(lens, source).of(true);
+  const std::array lambda_nm{460.0, 530.0, 610.0};
+  const TablesByWavelength tables(lens);
+  const StepsByWavelength steps(lens, tables);
+  const auto boxes_at = [&](std::span<const double> at_nm) {
+    return find_ghost_pupil({steps, {10, 20}, source, window, at_nm}).boxes;
+  };
+  CHECK(boxes_at(std::span(lambda_nm).first(2)).empty());
+  REQUIRE(boxes_at(lambda_nm).size() == 1);
+  const Rectangle found = boxes_at(lambda_nm).front(), red = boxes_at(std::span(lambda_nm).last(1)).front();
+  CHECK(holds(found, red));
 }
 
 TEST_CASE("boxes fitted at another wavelength grow to hold what gets through, and shrink to it") {

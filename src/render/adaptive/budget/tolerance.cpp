@@ -14,7 +14,7 @@ namespace {
 constexpr double kFitFraction = 0.3;  // of the allowed error, for fits: theirs is the same all over a ghost
 // The same, over kFitFraction, for rays that are evaluated from a fit: they cost little, and none of them fails, which
 // would show where a map is steep.
-constexpr double kFractionOfFitted = 0.4;
+constexpr double kFractionOfFitted = 0.6;
 constexpr double kNoLimit = 1e9;
 // The largest displacement of a ghost's light, over the ghost's size: kMaxShift in general, kPreviewShift in preview
 // quality, where twice that has produced false caustics between rays far apart.
