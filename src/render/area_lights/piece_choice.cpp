@@ -151,7 +151,7 @@ struct Divisions {
     constexpr double kWorthwhile = 0.67;  // of the error, saved by all steps
     for (std::size_t k = 0; k < left.size(); ++k)
       left[k] = k > 0 ? std::min(errors[k].compared, left[k - 1]) : errors[k].compared;
-    // What no division saves does not count: other ghosts need not compensate for it.
+    // An error that no division saves does not count: other ghosts need not compensate for it.
     for (std::size_t k = 0; k < left.size(); ++k) counted[k] = std::min(errors[k].counted, left[k] - left.back());
     if (left.front() > 0.0) worth = std::min((1.0 - left.back() / left.front()) / kWorthwhile, 1.0);
     for (std::size_t from = 0; from < gain.size();) {

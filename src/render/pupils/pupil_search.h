@@ -10,8 +10,7 @@
 //   y = 0 for small pupils among failing rays. For a light in its meridional frame and a path with axial symmetry; the
 //   iris counts as its circumscribed circle. Finds separate boxes with a few hundred rays.
 // - around a hint, the box at another wavelength or angle: one grid. Over a window it finds nothing if the pupil
-// extends
-//   beyond the hint; along the meridian the hint grows.
+//   extends beyond the hint; along the meridian the hint grows.
 //
 // Both ways trace rays at points, decide from the corners of cells where light may pass, and continue there
 // (clearance_rays.h, clearance_grid.h, open_cells.h). They stay two: `bundle` and `tiled` spread their grids over the
