@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text_file.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
 namespace contrejour::inline internal {
+namespace {
+
+constexpr std::size_t kLeastAtOnce = 4096;  // bytes, less one
+
+}  // namespace
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t max_bytes,
                                    std::string_view if_absent) {
@@ -25,11 +32,19 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return failure(ErrorCode::Io, "cannot be opened; check its permissions", {name, 0, 0});
-  // Reading one byte more than the limit detects a file that is too large, even one that grows meanwhile.
-  std::string text(max_bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  // The size is a guess, since the file may change meanwhile. Reading one byte more detects its end, or a file that is
+  // too large.
+  const std::uintmax_t size = std::filesystem::file_size(file, code);
+  const std::size_t guess = code ? 0 : static_cast<std::size_t>(std::min<std::uintmax_t>(size, max_bytes));
+  const std::size_t at_once = std::max(guess, kLeastAtOnce) + 1;
+  std::string text;
+  while (stream && text.size() <= max_bytes) {
+    const std::size_t known = text.size();
+    text.resize(std::min(known + at_once, max_bytes + 1));
+    stream.read(text.data() + known, static_cast<std::streamsize>(text.size() - known));
+    text.resize(known + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) return failure(ErrorCode::Io, "cannot be read; check the disk and try again", {name, 0, 0});
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > max_bytes) {
     return failure(ErrorCode::Parse, fmt::format("larger than {} bytes; no such file is", max_bytes), {name, 0, 0});
   }
