@@ -159,7 +159,7 @@ void GhostTessellator::tessellate(const FirstRays& rays, bool with_mirror_image,
     return fit_and_tessellate(all, ray_sets, patterns, dirt);
   }
   for (std::size_t k = 0; k < bands.size(); ++k) {
-    BandSet one(tracers_, bands[k]);
+    BandSet one(tracers_, bands[k], light_of_band(rays, bands[k], tracers_.passes(), bands.size()));
     const LobattoRays ray_set = band_rays(rays, bands[k], tracers_.passes());
     fit_and_tessellate(one, {&ray_set, 1}, {patterns[k]}, std::span(dirt).subspan(k, 1));
   }

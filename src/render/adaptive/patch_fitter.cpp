@@ -163,7 +163,7 @@ void PatchFitter::fit_between_rays(const BoxPart& part, std::span<const LobattoR
     return;
   }
   for (std::size_t k = 0; k < fitting.bands.size(); ++k) {
-    BandSet alone(tracers_, fitting.bands.band(k));
+    BandSet alone = fitting.bands.alone(k);
     fit(part, std::nullopt,
         {alone, fitting.tolerance, fitting.patterns.subspan(k, 1), fitting.parts, fitting.mirror_image, k});
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/ray_maps/band_set.h"
 
+#include <utility>
+
 namespace contrejour::inline internal::ray_maps {
 namespace {
 
@@ -35,13 +37,19 @@ PatchBlend blend_of(const Band& band, std::span<const PlannedPass> passes, const
 
 }  // namespace
 
-BandSet::BandSet(GhostTracers& tracers, const Band& band) : tracers_(tracers), bands_{band}, traced_{band.middle()} {}
+BandSet::BandSet(GhostTracers& tracers, const Band& band, BandLight light)
+    : tracers_(tracers), bands_{band}, traced_{band.middle()}, lights_{std::move(light)} {}
 
 BandSet::BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays,
                  std::span<const Band> bands)
-    : tracers_(tracers), bands_(bands.begin(), bands.end()) {
+    : tracers_(tracers), bands_(bands.begin(), bands.end()), lights_(bands.size()), rays_(&rays) {
   for (std::size_t k = 0; k < rays.samples; ++k) traced_.push_back(samples[k]);
   for (const Band& band : bands) blends_.push_back(blend_of(band, tracers.passes(), samples, rays));
+}
+
+BandSet BandSet::alone(std::size_t k) {
+  if (!lights_[k]) lights_[k] = light_of_band(*rays_, bands_[k], tracers_.passes(), bands_.size());
+  return {tracers_, bands_[k], *lights_[k]};
 }
 
 std::vector<LobattoRays> BandSet::trace(const Rectangle& box, int nodes, PacketPrecision precision) {
@@ -56,13 +64,13 @@ void BandSet::add_weights(std::vector<LobattoRays>& ray_sets, PacketPrecision pr
     return;
   }
   LobattoRays& ray_set = ray_sets.front();
-  const Band& band = bands_.front();
-  for (std::size_t pass = band.first; pass < band.last; ++pass) {
-    const Rgb& gain = tracers_.passes()[pass].gain;
+  const BandLight& light = *lights_.front();
+  for (std::size_t k = 0; k < light.passes.size(); ++k) {
+    const std::size_t pass = light.passes[k];
     if (pass == traced_.front())
-      add_light(ray_set, ray_set.transmission, gain);
+      add_light(ray_set, ray_set.transmission, light.gains[k]);
     else
-      add_light(ray_set, tracers_.at(pass).transmissions(ray_set.box, ray_set.nodes, precision), gain);
+      add_light(ray_set, tracers_.at(pass).transmissions(ray_set.box, ray_set.nodes, precision), light.gains[k]);
   }
 }
 

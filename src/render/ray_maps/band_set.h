@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/ray_maps/band.h"
+#include "render/ray_maps/band_light.h"
 #include "render/ray_maps/first_rays.h"
 #include "render/ray_maps/ghost_tracers.h"
 #include "render/ray_maps/patch.h"
@@ -17,10 +18,14 @@ namespace contrejour::inline internal::ray_maps {
 
 class BandSet {
  public:
-  // One band: rays at its middle wavelength, transmittances at all of its wavelengths.
-  BandSet(GhostTracers& tracers, const Band& band);
-  // All bands: rays at the wavelength samples that the first rays found sufficient.
+  // One band: rays at its middle wavelength, transmittances at those of its light.
+  BandSet(GhostTracers& tracers, const Band& band, BandLight light);
+  // All bands: rays at the wavelength samples that the first rays found sufficient. rays:
+  // outlives this object.
   BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays, std::span<const Band> bands);
+
+  // One of several bands.
+  [[nodiscard]] BandSet alone(std::size_t k);
 
   [[nodiscard]] std::size_t size() const { return bands_.size(); }
   [[nodiscard]] const Band& band(std::size_t k) const { return bands_[k]; }
@@ -39,6 +44,8 @@ class BandSet {
   std::vector<Band> bands_;
   std::vector<std::size_t> traced_;  // passes
   std::vector<PatchBlend> blends_;  // one a band; none: there is one band
+  std::vector<std::optional<BandLight>> lights_;  // one a band, of bands that were needed alone
+  const FirstRays* rays_ = nullptr;
 };
 
 }  // namespace contrejour::inline internal::ray_maps

@@ -157,7 +157,8 @@ FirstRays first_rays(GhostTracers& tracers, const WavelengthSamples& samples, co
     rays.ray_sets[pass] = tracers.at(pass).trace(box, options.nodes, options.precision);
   };
   const auto find_tolerance = [&](const LobattoRays& middle) {
-    rays.tolerance = tolerance_of(middle, largest_weight(rays, middle, passes), tracers.light().source.shared_flux());
+    rays.largest_weight = largest_weight(rays, middle, passes);
+    rays.tolerance = tolerance_of(middle, rays.largest_weight, tracers.light().source.shared_flux());
   };
   const std::size_t max_traced = passes.size() >= kManyPasses ? std::min(samples.size(), kMaxTraced) : 0;
   for (std::size_t k = 0; k < max_traced; ++k) {

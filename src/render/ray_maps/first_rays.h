@@ -20,6 +20,7 @@ struct FirstRays {
   std::vector<double> light;
   bool is_linear = false;  // light_factors() are those of straight lines
   std::size_t samples = 0;  // passes traced, in the order of the samples; 0: all were
+  double largest_weight = 0.0;  // of any channel at any node, all passes together
   Tolerance tolerance;
 };
 
