@@ -37,8 +37,6 @@ int core_count() {
   return count;
 }
 
-int thread_count(const Context& context) { return context.threads > 0 ? context.threads : core_count(); }
-
 // Waits while the context's caller needs the processors. A caller that never releases them only slows the work down.
 void rest_while_held(const Context& context) {
   using std::chrono::steady_clock;
@@ -82,6 +80,8 @@ void run_in_arena(int threads, Body body) {
 }
 
 }  // namespace
+
+int thread_count(const Context& context) { return context.threads > 0 ? context.threads : core_count(); }
 
 bool parallel_for(std::size_t count, const Context& context, const std::function<void(std::size_t)>& body) {
   ProgressReport report(context, count);

@@ -16,6 +16,9 @@ namespace contrejour::inline internal {
 // The error of a computation whose context was cancelled.
 inline tl::unexpected<Error> interrupted() { return failure(ErrorCode::Cancelled, "interrupted"); }
 
+// The number of threads that a context asks for.
+[[nodiscard]] int thread_count(const Context& context);
+
 // Calls body(i) for i in [0, count) on the context's threads, in any order; progress by items done.
 bool parallel_for(std::size_t count, const Context& context, const std::function<void(std::size_t)>& body);
 

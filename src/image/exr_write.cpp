@@ -22,6 +22,7 @@
 #include <fmt/format.h>
 
 #include "image/exr_streams.h"
+#include "image/exr_threads.h"
 #include "image/formats.h"
 #include "image/luminance_chroma.h"
 #include "image/picture_header.h"
@@ -119,10 +120,10 @@ bool write_tiles(File& out, const OutputFileStream& stream, const Imf::FrameBuff
 bool write_single(OutputFileStream& stream, const Imf::Header& header, const Imf::FrameBuffer& frame_buffer, int height,
                   const Context& context) {
   if (header.hasTileDescription()) {
-    Imf::TiledOutputFile out(stream, header);
+    Imf::TiledOutputFile out(stream, header, exr_threads(context));
     return write_tiles(out, stream, frame_buffer, context);
   }
-  Imf::OutputFile out(stream, header);
+  Imf::OutputFile out(stream, header, exr_threads(context));
   return write_scan_lines(out, stream, frame_buffer, height, context);
 }
 
@@ -152,7 +153,8 @@ bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf:
   std::vector<Imf::Header> headers;
   for (int part = 0; part < in.parts(); ++part) headers.push_back(part == parts.part ? header : in.header(part));
   // The first part's display window and pixel aspect are used for all: the format requires them to be equal.
-  Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true);
+  Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true,
+                               exr_threads(context));
   for (int part = 0; part < in.parts(); ++part) {
     if (context.cancelled() || stream.error()) return false;
     if (part != parts.part) {

@@ -609,6 +609,22 @@ TEST_CASE("a picture of one channel is grey, whatever its name") {
   }
 }
 
+TEST_CASE("any number of threads write the same file") {
+  const ScratchFolder folder;
+  Image image(300, 700);
+  std::mt19937 random(3);
+  for (float& value : image.pixels) value = std::uniform_real_distribution<float>(0.0F, 1.0F)(random);
+  std::vector<std::vector<std::byte>> files;
+  for (const int threads : {1, 2, 7}) {
+    Context context;
+    context.threads = threads;
+    REQUIRE(write_exr(folder / "flare.exr", image, SampleType::Float, context));
+    files.push_back(bytes_of(folder / "flare.exr"));
+  }
+  CHECK(files[1] == files[0]);
+  CHECK(files[2] == files[0]);
+}
+
 TEST_CASE("a cancelled write leaves nothing and keeps what was there") {
   const ScratchFolder folder;
   const std::atomic<bool> cancel{true};
