@@ -153,8 +153,7 @@ bool write_parts(OutputFileStream& stream, const PictureParts& parts, const Imf:
   std::vector<Imf::Header> headers;
   for (int part = 0; part < in.parts(); ++part) headers.push_back(part == parts.part ? header : in.header(part));
   // The first part's display window and pixel aspect are used for all: the format requires them to be equal.
-  Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true,
-                               exr_threads(context));
+  Imf::MultiPartOutputFile out(stream, headers.data(), static_cast<int>(headers.size()), true, exr_threads(context));
   for (int part = 0; part < in.parts(); ++part) {
     if (context.cancelled() || stream.error()) return false;
     if (part != parts.part) {
