@@ -145,6 +145,7 @@ void add_apply(CLI::App& app, Action& action) {
   add_output(*command, "-o,--output", options->output,
              {".exr", ".png", ".dpx", ".tif", ".tiff", ".jpg", ".jpeg", ".hdr"}, "the photograph with flare")
       ->required();
+  add_exr_compression(*command, options->compression);
   add_output(*command, "--flare-only", options->flare_only, {".exr"}, "the flare alone");
   add_output(
       *command, "--detected", options->detected, {".exr", ".png"},

@@ -81,6 +81,7 @@ Result<FlaredPhotograph> render_exposure(PlannedPhotograph&& planned, SourceRend
 Result<void> write_flare(const FlaredPhotograph& flared, const Context& context) {
   const PlannedPhotograph& planned = flared.planned;
   Picture alone = aligned_picture(flared.flare.image, planned.picture, planned.plan);
+  alone.exr_compression = planned.options.compression;
   if (planned.options.layers.on()) add_layers(alone, flared.layers, planned.options.layers);
   return write_picture(*planned.files.flare_only, alone, context);
 }
@@ -96,6 +97,7 @@ Result<PlannedPhotograph> read_photograph(const ApplyOptions& options, std::shar
 Result<PlannedPhotograph> plan_photograph(const ApplyOptions& options, std::shared_ptr<const LensState> lens,
                                           Plate plate) {
   PlannedPhotograph planned{options, std::move(lens), {}, {}, std::move(plate.picture), {}, std::move(plate.source)};
+  planned.picture.exr_compression = options.compression;
   auto files = open_apply_files(options, planned.outputs);
   if (!files) return tl::unexpected(files.error());
   planned.files = *files;

@@ -24,6 +24,7 @@ struct ApplyOptions {
   bool json = false;
   ReadOptions read;
   PlateColour colour;
+  ExrCompression compression = ExrCompression::AsRead;
   PresetOptions preset;
   LayerChoice layers;
   params::Values values;

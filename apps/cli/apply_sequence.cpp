@@ -36,7 +36,7 @@ FrameFiles files_of(const ApplyOptions& own, const std::string& exposure, bool i
   if (!colour.input_space.empty() || !colour.output_space.empty())
     settings.text +=
         fmt::format("spaces = {} -> {} of {}\n", colour.input_space, colour.output_space, colour_config(colour));
-  settings.text += exposure + layers_text(own.layers);
+  settings.text += compression_text(own.compression) + exposure + layers_text(own.layers);
   return frame_files(std::move(settings), is_missing ? std::string() : own.input, own.outputs());
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -152,6 +154,36 @@ CLI::Option* add_number(CLI::App& command, const std::string& flag, int& number,
   return command.add_option(flag, number, fmt::format("{} (default: {})", help, number))
       ->check(CLI::Range(min, max))
       ->option_text("N");
+}
+
+namespace {
+
+const std::map<std::string, ExrCompression>& compressions() {
+  static const std::map<std::string, ExrCompression> by_name{{"none", ExrCompression::None},
+                                                             {"rle", ExrCompression::Rle},
+                                                             {"zips", ExrCompression::Zips},
+                                                             {"zip", ExrCompression::Zip},
+                                                             {"piz", ExrCompression::Piz}};
+  return by_name;
+}
+
+}  // namespace
+
+void add_exr_compression(CLI::App& command, ExrCompression& compression) {
+  command
+      .add_option_function<std::string>(
+          "--compression", [&compression](const std::string& name) { compression = compressions().at(name); },
+          "the lossless compression of EXR files; none and rle take a fraction of the time of the others (default: "
+          "that "
+          "of the picture read, else zip)")
+      ->check(CLI::IsMember({"none", "rle", "zips", "zip", "piz"}))
+      ->option_text("none|rle|zips|zip|piz");
+}
+
+std::string compression_text(ExrCompression compression) {
+  for (const auto& [name, value] : compressions())
+    if (value == compression) return fmt::format("compression = {}\n", name);
+  return {};
 }
 
 std::string lower_extension(const std::string& file) {

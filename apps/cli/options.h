@@ -59,6 +59,11 @@ void add_picture_choice(CLI::App& command, ReadOptions& read);
 enum class PlateUse { Read, Write, ReadAndWrite };
 void add_plate_colour(CLI::App& command, PlateColour& colour, PlateUse use);
 
+// Adds --compression, for EXR files that the command writes.
+void add_exr_compression(CLI::App& command, ExrCompression& compression);
+// The compression for a frame's record; empty where the option is not given.
+[[nodiscard]] std::string compression_text(ExrCompression compression);
+
 [[nodiscard]] std::string lower_extension(const std::string& file);
 
 }  // namespace contrejour::cli

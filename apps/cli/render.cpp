@@ -110,6 +110,7 @@ void add_render(CLI::App& app, Action& action) {
   add_preset_options(*command, options->preset);
   add_layer_options(*command, options->layers);
   add_plate_colour(*command, options->colour, PlateUse::Write);
+  add_exr_compression(*command, options->compression);
   add_parameters(*command, options->values, {"exposure"});
   add_parameters(*command, options->values,
                  {"light", "light-at", "value", "colour", "light-size", "light-distance", "iso", "shutter",

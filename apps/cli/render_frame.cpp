@@ -39,6 +39,7 @@ Result<void> write_image(const RenderedFrame& rendered, const PreviewSettings& p
   const bool is_linear = planned.options.colour.output_space.empty();
   if (ending == ".png" && is_linear) return write_preview_png(*planned.files.output, flare.image, preview, context);
   Picture picture = picture_of(flare.image);
+  picture.exr_compression = planned.options.compression;
   set_colour_space(picture, planned.request.settings.colour_space);
   set_pixel_aspect(picture, planned.request.pixel_aspect);
   if (ending != ".exr" || !is_linear)

@@ -26,6 +26,7 @@ struct RenderOptions {
   PresetOptions preset;
   LayerChoice layers;
   PlateColour colour;
+  ExrCompression compression = ExrCompression::AsRead;
   params::Values values;
   bool needs_light = true;  // where the values give no light: the default one, rather than a black frame
 

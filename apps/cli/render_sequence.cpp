@@ -31,7 +31,7 @@ FrameFiles files_of(const RenderOptions& own, const std::string& exposure) {
   settings.text += fmt::format("default light = {}\n", own.needs_light);
   if (!own.colour.output_space.empty())
     settings.text += fmt::format("spaces = {} of {}\n", own.colour.output_space, colour_config(own.colour));
-  settings.text += exposure + layers_text(own.layers);
+  settings.text += compression_text(own.compression) + exposure + layers_text(own.layers);
   return frame_files(std::move(settings), {}, own.outputs());
 }
 

@@ -51,6 +51,18 @@ inline namespace internal {
 struct PictureHeader;  // an OpenEXR file's attributes, kept whole
 }
 
+// The codec of an OpenEXR file that is written; all of these are lossless. None and Rle take a fraction of the time of
+// the others, for files of floats that are up to half as large again.
+enum class ExrCompression {
+  AsRead,
+  None,
+  Rle,
+  Zips,
+  Zip,
+  Piz
+};  // AsRead: that of the picture's own file if it is
+    // lossless, else Zip
+
 struct Picture {
   Image rgb;  // scene-linear, three channels, over the data window; change this
   PixelWindow data_window;  // where rgb lies
@@ -61,6 +73,7 @@ struct Picture {
   std::array<int, 2> chroma_source{-1, -1};  // chroma of half the size, (R - Y) / Y and (B - Y) / Y; rgb_source is then
                                              // Y
   std::shared_ptr<const PictureHeader> header;  // null: not from an OpenEXR file
+  ExrCompression exr_compression = ExrCompression::AsRead;
 };
 
 // Limits that a reader checks before it allocates; a larger file is refused.

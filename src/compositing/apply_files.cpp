@@ -54,7 +54,8 @@ Result<void> copy_photograph(OutputFile& file, const std::filesystem::path& inpu
                              const Values& values, const Context& context) {
   const char* const format = picture.header != nullptr ? ".exr" : ".png";
   std::error_code error;
-  if (has_exposure(file, values) || lower_extension(file.destination()) != format ||
+  const bool as_read = picture.exr_compression == ExrCompression::AsRead;
+  if (!as_read || has_exposure(file, values) || lower_extension(file.destination()) != format ||
       !std::filesystem::is_regular_file(input, error))
     return write_photograph(file, picture, values, context);
   return copy_bytes(file, input);

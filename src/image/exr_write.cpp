@@ -59,11 +59,23 @@ bool is_lossy(Imf::Compression compression) {
   }
 }
 
+Imf::Compression compression_to_write(const Picture& picture, Imf::Compression of_header) {
+  switch (picture.exr_compression) {
+    case ExrCompression::None: return Imf::NO_COMPRESSION;
+    case ExrCompression::Rle: return Imf::RLE_COMPRESSION;
+    case ExrCompression::Zips: return Imf::ZIPS_COMPRESSION;
+    case ExrCompression::Zip: return Imf::ZIP_COMPRESSION;
+    case ExrCompression::Piz: return Imf::PIZ_COMPRESSION;
+    case ExrCompression::AsRead: break;
+  }
+  return !picture.header || is_lossy(of_header) ? Imf::ZIP_COMPRESSION : of_header;
+}
+
 Imf::Header header_to_write(const Picture& picture) {
   Imf::Header header = without_attribute(header_of(picture), "chunkCount");  // it is the count of another file
   header.dataWindow() = box_of(picture.data_window);
   header.displayWindow() = box_of(picture.display_window);
-  if (!picture.header || is_lossy(header.compression())) header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = compression_to_write(picture, header.compression());
   if (header.hasTileDescription()) {
     header.tileDescription().mode = Imf::ONE_LEVEL;  // smaller levels would still contain the old picture
   } else if (header.lineOrder() == Imf::RANDOM_Y) {

@@ -138,6 +138,26 @@ class Apply(ProgramTest):
         self.assertEqual((self.folder / "in.exr").read_bytes(), (self.folder / "out.exr").read_bytes())
         self.assertEqual(exr.Picture(self.folder / "f.exr").total(), 0)
 
+    def test_compression(self):
+        """--compression changes the file, not the picture; a plate keeps its own."""
+        def codec(name):
+            return exr.Picture(self.folder / name).attributes["compression"][1][0]
+        render = ["render", "heliar", "--size", "64x36", "--threads", "2"]
+        self.run_program(*render, "-o", "zip.exr")
+        self.run_program(*render, "-o", "none.exr", "--compression", "none")
+        self.assertEqual([codec("zip.exr"), codec("none.exr")], [3, 0])
+        self.assertEqual(exr.Picture(self.folder / "zip.exr").channels, exr.Picture(self.folder / "none.exr").channels)
+        self.write("lit.exr", dark([(60, 20, 5000.0)]))
+        self.write("dark.exr", [0.1] * (WIDTH * HEIGHT))
+        for plate in ("lit.exr", "dark.exr"):
+            self.run_program("apply", "heliar", plate, "-o", "kept.exr", *QUICK)
+            self.run_program("apply", "heliar", plate, "-o", "packed.exr", "--flare-only", "flare.exr", "--compression",
+                             "zips", *QUICK)
+            self.assertEqual([codec("kept.exr"), codec("packed.exr"), codec("flare.exr")], [0, 2, 2])
+            kept, packed = exr.Picture(self.folder / "kept.exr"), exr.Picture(self.folder / "packed.exr")
+            self.assertEqual(kept.channels, packed.channels)
+        self.assertIn("rle", self.error_of(*render, "-o", "no.exr", "--compression", "b44", code=2))
+
     def test_everything_else_is_kept(self):
         values = dark([(60, 20, 5000.0)])
         values[5] = math.nan

@@ -107,6 +107,7 @@ class Sequence(ProgramTest):
         (self.folder / "out.0001.exr").write_bytes(b"")
         self.assertEqual(changed(), ["out.0001.exr"])
         self.assertEqual(len(changed("--gain", "2")), 3)
+        self.assertEqual(len(changed("--gain", "2", "--compression", "rle")), 3)
 
     def test_killed_at_any_moment(self):
         """After kill -9 or Ctrl-C every frame is whole, and --resume makes the rest: the same bits."""

@@ -609,6 +609,26 @@ TEST_CASE("a picture of one channel is grey, whatever its name") {
   }
 }
 
+TEST_CASE("every codec that can be chosen keeps every bit") {
+  const ScratchFolder folder;
+  Picture picture = picture_of(Image(40, 30));
+  std::mt19937 random(3);
+  for (float& value : picture.rgb.pixels) value = std::uniform_real_distribution<float>(0.0F, 1.0F)(random);
+  const std::vector<std::pair<ExrCompression, Imf::Compression>> codecs{
+      {ExrCompression::AsRead, Imf::ZIP_COMPRESSION}, {ExrCompression::None, Imf::NO_COMPRESSION},
+      {ExrCompression::Rle, Imf::RLE_COMPRESSION},    {ExrCompression::Zips, Imf::ZIPS_COMPRESSION},
+      {ExrCompression::Zip, Imf::ZIP_COMPRESSION},    {ExrCompression::Piz, Imf::PIZ_COMPRESSION}};
+  for (const auto& [choice, codec] : codecs) {
+    picture.exr_compression = choice;
+    must_write(folder / "out.exr", picture);
+    CHECK(Imf::InputFile((folder / "out.exr").string().c_str()).header().compression() == codec);
+    Picture read = must_read(folder / "out.exr");
+    CHECK(read.rgb.pixels == picture.rgb.pixels);
+    must_write(folder / "again.exr", read);  // a picture that was read keeps its own
+    CHECK(Imf::InputFile((folder / "again.exr").string().c_str()).header().compression() == codec);
+  }
+}
+
 TEST_CASE("any number of threads write the same file") {
   const ScratchFolder folder;
   Image image(300, 700);
