@@ -173,9 +173,8 @@ void add_exr_compression(CLI::App& command, ExrCompression& compression) {
   command
       .add_option_function<std::string>(
           "--compression", [&compression](const std::string& name) { compression = compressions().at(name); },
-          "the lossless compression of EXR files; none and rle take a fraction of the time of the others (default: "
-          "that "
-          "of the picture read, else zip)")
+          "the lossless compression of EXR files; none and rle take a fraction of the time of the others "
+          "(default: that of the picture read, else zip)")
       ->check(CLI::IsMember({"none", "rle", "zips", "zip", "piz"}))
       ->option_text("none|rle|zips|zip|piz");
 }

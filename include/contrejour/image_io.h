@@ -51,17 +51,10 @@ inline namespace internal {
 struct PictureHeader;  // an OpenEXR file's attributes, kept whole
 }
 
-// The codec of an OpenEXR file that is written; all of these are lossless. None and Rle take a fraction of the time of
-// the others, for files of floats that are up to half as large again.
-enum class ExrCompression {
-  AsRead,
-  None,
-  Rle,
-  Zips,
-  Zip,
-  Piz
-};  // AsRead: that of the picture's own file if it is
-    // lossless, else Zip
+// The codec of an OpenEXR file that is written; all of these are lossless. AsRead: that of the picture's own file if it
+// is lossless, else Zip. None and Rle take a fraction of the time of the others, for files of floats that are up to
+// half as large again.
+enum class ExrCompression { AsRead, None, Rle, Zips, Zip, Piz };
 
 struct Picture {
   Image rgb;  // scene-linear, three channels, over the data window; change this

@@ -20,8 +20,7 @@ class BandSet {
  public:
   // One band: rays at its middle wavelength, transmittances at those of its light.
   BandSet(GhostTracers& tracers, const Band& band, BandLight light);
-  // All bands: rays at the wavelength samples that the first rays found sufficient. rays:
-  // outlives this object.
+  // All bands: rays at the wavelength samples that the first rays found sufficient. rays outlives this object.
   BandSet(GhostTracers& tracers, const WavelengthSamples& samples, const FirstRays& rays, std::span<const Band> bands);
 
   // One of several bands.
