@@ -57,3 +57,14 @@ TEST_CASE("adaptive draws near lights and a window of the frame on the device") 
   near.back().distance_mm = 800.0;
   check_near(device, lens, near, settings);
 }
+
+TEST_CASE("edges of ghosts lie where the CPU draws them, whatever bends the map to the stop") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const auto zoom = configure_lens(*find_lens("nikon-80-200"), {.focal_length_mm = 140.0, .f_number = 16.0});
+  REQUIRE(zoom.has_value());
+  FrameSettings settings = settings_of(*zoom, 320, 180);
+  settings.selection = SelectList{{{1, 8}, {1, 10}, {1, 11}}};
+  const Light light{.direction = direction_from_angles(0.052, 0.022)};
+  check_near(device, *zoom, {&light, 1}, settings);
+}

@@ -70,15 +70,22 @@ float sum_of(float number) {
 
 float cube_root(float x) { return x > 0.0 ? pow(x, 1.0 / 3.0) : 0.0; }
 
-uint cells_for(uint item, float allowed_by_root) {
-  float error = state(item, STATE_ERROR);
-  if (!(state(item, STATE_FLUX) > 0.0)) return 0u;
-  if (!(allowed_by_root > 0.0)) return COARSE_CELLS;
-  float allowed = allowed_by_root * cube_root(error);
-  float cells = float(COARSE_CELLS) * sqrt(sqrt(error / max(allowed, 1e-37)));
+// The cells a side for half of the allowed error.
+float side_for(float error, float allowed) {
+  return float(COARSE_CELLS) * sqrt(sqrt(2.0 * error / max(allowed, 1e-37)));
+}
+
+// The cells a side, and the parts a side of a cell at an edge: edges may be finer than the grid.
+uvec2 cells_for(uint item, float allowed_by_root) {
+  if (!(state(item, STATE_FLUX) > 0.0)) return uvec2(0u);
+  if (!(allowed_by_root > 0.0)) return uvec2(COARSE_CELLS, 1u);
+  float allowed = allowed_by_root * cube_root(squared_error_of(item));
+  float edges = side_for(state(item, STATE_EDGE_ERROR), allowed);
+  float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_CUT_PARTS));
   // Cells smaller than a third of a pixel show nothing more.
   cells = min(cells, min(3.0 * state(item, STATE_EXTENT), float(MOST_CELLS)));
-  return max(uint(ceil(cells)), FEWEST_CELLS);
+  cells = max(ceil(cells), float(FEWEST_CELLS));
+  return uvec2(cells, clamp(ceil(max(edges, CUT_FINENESS) / cells), 1.0, float(MOST_CUT_PARTS)));
 }
 
 // Draws items by the middle one of their group where that is within the error and keeps the colours.
@@ -87,14 +94,16 @@ void merge(uint group, float allowed_by_root) {
   vec3 gain = item_gain(middle);
   for (uint item = first; item < first + count; ++item) {
     uint word = STATE_WORDS * item;
-    uint cells = cells_for(item, allowed_by_root);
-    float allowed = MERGED_SHARE * allowed_by_root * cube_root(state(item, STATE_ERROR));
+    uvec2 cells_and_parts = cells_for(item, allowed_by_root);
+    uint cells = cells_and_parts.x;
+    float allowed = MERGED_SHARE * allowed_by_root * cube_root(squared_error_of(item));
     if (item != middle && cells > 0u && state(middle, STATE_FLUX) > 0.0 && state(item, STATE_MERGED_ERROR) <= allowed &&
         state(item, STATE_DISPLACEMENT) <= LARGEST_MERGED) {
       gain += item_gain(item) * (state(item, STATE_FLUX) / state(middle, STATE_FLUX));
       cells = 0u;
     }
     states[word + STATE_CELLS] = uintBitsToFloat(cells);
+    states[word + STATE_PARTS] = uintBitsToFloat(cells_and_parts.y);
     for (uint c = 0u; c < 3u; ++c) states[word + STATE_GAIN + c] = item_gain(item)[c];
   }
   for (uint c = 0u; c < 3u; ++c) states[STATE_WORDS * middle + STATE_GAIN + c] = gain[c];
@@ -132,7 +141,7 @@ void main() {
   barrier();
   float peak = max(find_peak(), p.least_peak);
   float roots = 0.0;
-  for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(state(item, STATE_ERROR));
+  for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(squared_error_of(item));
   float all_roots = sum_of(roots);
   float allowed_by_root = all_roots > 0.0 ? p.budget * peak * peak / all_roots : 0.0;
   for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root);

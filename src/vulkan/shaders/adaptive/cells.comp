@@ -34,7 +34,7 @@ uint cut_parts(uvec4 v) {
   vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
   vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
   uint halves = uint(min(2.0 * max(high.x - low.x, high.y - low.y) + 1.0, 1.0e4));
-  return clamp(min(CUT_FINENESS / (side - 1u), halves), 1u, MOST_CUT_PARTS);
+  return clamp(min(floatBitsToUint(state(item, STATE_PARTS)), halves), 1u, MOST_CUT_PARTS);
 }
 
 void list_cut(uint parts) {

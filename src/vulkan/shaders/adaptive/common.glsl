@@ -66,7 +66,7 @@ p;
 #define CUT_CELL_MASK 0x1fffffu
 #define CUT_PART_SHIFT 21u
 #define CUT_PARTS_SHIFT 25u
-#define CUT_FINENESS 16u  // parts of cut cells a side of the grid, at least
+#define CUT_FINENESS 16.0  // parts of cut cells a side of the grid, at least
 #define MOST_CUT_PARTS 4u
 
 // A group of a dispatch in rows, by its number.
@@ -90,18 +90,22 @@ uint group_word(uint group, uint k) { return groups[GROUP_WORDS * group + k]; }
 #define BRIGHTER_THAN_PEAK 0.001  // the part of the samples that exceed the peak (metrics.h)
 uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * float(p.width) * float(p.height)), 1u); }
 
-// An item's state: error of a grid of COARSE_CELLS a side, and of drawing it in another one's wavelength, both squared
-// and summed over the pixels; its flux within the frame; the squared displacement from the other, relative
-// to its area; the cells a side; its gains with those of the items that are drawn by it.
+// An item's state: error of a grid of COARSE_CELLS a side between its edges, of the edges, and of drawing it in another
+// one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the other, relative
+// to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the items that are
+// drawn by it.
 #define STATE_ERROR 0u
 #define STATE_MERGED_ERROR 1u
 #define STATE_FLUX 2u
 #define STATE_DISPLACEMENT 3u
 #define STATE_CELLS 4u
 #define STATE_GAIN 5u
+#define STATE_EDGE_ERROR 8u
 #define STATE_EXTENT 9u  // of the image, pixels
+#define STATE_PARTS 10u
 #define COARSE_CELLS 15u
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
+float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
 vec3 state_gain(uint item) {
   return vec3(state(item, STATE_GAIN), state(item, STATE_GAIN + 1u), state(item, STATE_GAIN + 2u));

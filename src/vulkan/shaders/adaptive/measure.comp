@@ -9,11 +9,17 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "../iris.glsl"
 
 #define BOUND_LARGEST_DENSITY_CHANGE 2.0
+#define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
+#define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
+#define MEAN_SQUARED_ARCH (8.0 / 15.0)    // of a parabola of height 1 over its chord
 
-shared vec2 places[256];        // pixels
-shared vec2 middle_places[256]; // of the group's middle item
-shared vec2 passing[256];       // transmission, -1 where the ray fails; as blocked()
-shared float densities[256];    // of cells, with the sign of their area; 0: none
+// Of rays: pixels; transmission, -1 where the ray fails; the largest height at a rim; the crossing of the stop that is
+// farthest outside.
+shared vec2 places[256];
+shared float transmissions[256];
+shared float rims[256];
+shared vec2 stops[256];
+shared float densities[256];  // of cells, with the sign of their area; 0: none
 shared vec4 sums_of[256];
 shared uint histogram[BINS];
 
@@ -36,6 +42,8 @@ void largest() {
   }
 }
 
+uint crossings_of_group = 0u;
+
 struct Cell {
   bool is_drawn;
   float area_px, length_px, open;  // length: of the longer side, about; open: the part that is open
@@ -50,16 +58,21 @@ float open_part(vec4 at) {
   return clamp(0.5 - mean / max(abs(slope.x) + abs(slope.y), 1e-12), 0.0, 1.0);
 }
 
+float iris_distance_at(uint k) { return crossings_of_group > 0u ? iris_distance(stops[k]) : -1.0; }
+
+// As blocked().
+float blocked_at(uint k) { return max(rims[k] - 1.0, iris_distance_at(k)); }
+
 Cell cell_at(uint k, float flux_a_transmission) {
   Cell cell = Cell(false, 0.0, 0.0, 0.0, 0.0, 0.0);
   if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return cell;
   uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
   float transmission = 0.0;
   for (int j = 0; j < 4; ++j) {
-    if (passing[v[j]].x < 0.0) return cell;
-    transmission += 0.25 * passing[v[j]].x;
+    if (transmissions[v[j]] < 0.0) return cell;
+    transmission += 0.25 * transmissions[v[j]];
   }
-  cell.open = open_part(vec4(passing[v.x].y, passing[v.y].y, passing[v.z].y, passing[v.w].y));
+  cell.open = open_part(vec4(blocked_at(v.x), blocked_at(v.y), blocked_at(v.z), blocked_at(v.w)));
   cell.area_px = 0.5 * cross2(places[v.z] - places[v.x], places[v.w] - places[v.y]);
   cell.length_px = 0.7 * max(length(places[v.z] - places[v.x]), length(places[v.w] - places[v.y]));
   cell.flux = transmission * flux_a_transmission;
@@ -72,17 +85,60 @@ Cell cell_at(uint k, float flux_a_transmission) {
   return cell;
 }
 
-vec2 second_difference(uint k, uint step_by) {
-  if (passing[k - step_by].x < 0.0 || passing[k].x < 0.0 || passing[k + step_by].x < 0.0) return vec2(1.0);
-  return places[k - step_by] - 2.0 * places[k] + places[k + step_by];
+bool has_neighbours(uint k, uint step_by) {
+  return transmissions[k - step_by] >= 0.0 && transmissions[k] >= 0.0 && transmissions[k + step_by] >= 0.0;
+}
+
+// The ray about which a cell's second differences are taken.
+uint ray_inside() {
+  uvec2 at = clamp(gl_LocalInvocationID.xy, uvec2(1u), uvec2(14u));
+  return 16u * at.y + at.x;
 }
 
 // The mean over the cell of the squared distance of a straight edge from what it stands for.
 float squared_sag() {
-  uvec2 at = clamp(gl_LocalInvocationID.xy, uvec2(1u), uvec2(14u));
-  uint k = 16u * at.y + at.x;
-  vec2 x = second_difference(k, 1u), y = second_difference(k, 16u);
+  uint k = ray_inside();
+  vec2 x = vec2(1.0), y = vec2(1.0);
+  if (has_neighbours(k, 1u)) x = places[k - 1u] - 2.0 * places[k] + places[k + 1u];
+  if (has_neighbours(k, 16u)) y = places[k - 16u] - 2.0 * places[k] + places[k + 16u];
   return (dot(x, x) + dot(y, y)) / 64.0;
+}
+
+// The same for an edge where a height is 0 that is linear in each part of the grid. x, y: second differences of the
+// height; at: its values at the corners.
+float squared_edge_sag(uint k, vec4 at, float x, float y) {
+  vec2 slope = 0.5 * vec2(at.y - at.x + at.z - at.w, at.w - at.x + at.z - at.y);
+  float bend = abs(x) + abs(y) + abs(at.x - at.y + at.z - at.w);
+  vec2 along_x = 0.5 * (places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u]);
+  vec2 along_y = 0.5 * (places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u]);
+  float cells = TYPICAL_BEND * bend / 8.0 / max(dot(slope, slope), 1e-12);
+  float displaced = min(cells * length(slope.x * along_x + slope.y * along_y), length(along_x) + length(along_y));
+  return MEAN_SQUARED_ARCH * displaced * displaced;
+}
+
+bool has_edge(vec4 at) {
+  return min(min(at.x, at.y), min(at.z, at.w)) <= 0.0 && max(max(at.x, at.y), max(at.z, at.w)) > 0.0;
+}
+
+// Edges are straight between the rays of a grid, though heights at rims and crossings of the stop bend.
+float squared_sag_of_bounds(uint k) {
+  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+  uint inside = ray_inside();
+  if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return UNKNOWN_SAG_SQUARED;
+  float squared = 0.0;
+  vec4 rim = vec4(rims[v.x], rims[v.y], rims[v.z], rims[v.w]);
+  if (has_edge(rim - 1.0))
+    squared += squared_edge_sag(k, rim, rims[inside - 1u] - 2.0 * rims[inside] + rims[inside + 1u],
+                                rims[inside - 16u] - 2.0 * rims[inside] + rims[inside + 16u]);
+  vec4 iris = vec4(iris_distance_at(v.x), iris_distance_at(v.y), iris_distance_at(v.z), iris_distance_at(v.w));
+  if (has_edge(iris)) {
+    // The iris itself is exact: only what moves its edge along its normal counts.
+    vec2 normal = normalize(stops[v.x] + stops[v.y] + stops[v.z] + stops[v.w] + vec2(1e-20));
+    vec4 at = vec4(dot(normal, stops[v.x]), dot(normal, stops[v.y]), dot(normal, stops[v.z]), dot(normal, stops[v.w]));
+    squared += squared_edge_sag(k, at, dot(normal, stops[inside - 1u] - 2.0 * stops[inside] + stops[inside + 1u]),
+                                dot(normal, stops[inside - 16u] - 2.0 * stops[inside] + stops[inside + 16u]));
+  }
+  return squared;
 }
 
 // The squared part of a cell's density by which a linear function is off.
@@ -133,33 +189,48 @@ void publish_histogram() {
 }
 
 float middle_density = 0.0;  // of the cell, in the group's middle item
+vec2 middle_place;           // of the ray, in that item
 
 void trace_corner(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;
   set_path(item);
   vec2 at = box.xy + box.zw * vec2(gl_LocalInvocationID.xy) / float(COARSE_CELLS);
   vec4 ray = trace_ray(at.x, at.y);
-  float most = ray.w - 1.0;
-  for (uint c = 0u; c < crossings_of(item); ++c) most = max(most, iris_distance(stop_points[c]));
+  vec2 farthest = stop_points[0];
+  for (uint c = 1u; c < crossings_of_group; ++c)
+    if (iris_distance(stop_points[c]) > iris_distance(farthest)) farthest = stop_points[c];
   places[k] = ray.xy;
-  if (is_middle) middle_places[k] = ray.xy;
-  passing[k] = vec2(failed(ray) ? -1.0 : ray.z, most);
+  if (is_middle) middle_place = ray.xy;
+  transmissions[k] = failed(ray) ? -1.0 : ray.z;
+  rims[k] = ray.w;
+  stops[k] = farthest;
   barrier();
 }
 
-// Squared errors, in values of the item; flux and area within the frame. Merged: where edges lie elsewhere.
+// Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie elsewhere.
 vec4 sum_errors(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
-  vec2 moved = places[k] - middle_places[k];
+  vec2 moved = places[k] - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
   bool is_edge = cell.open < 1.0;
-  float inside = area * cell.open * squared_bend(k), edge = is_edge ? cell.length_px * squared_sag() : 0.0;
+  float inside = area * cell.open * squared_bend(k);
   float merged = is_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
-                              : inside_frame * vec4(value * value * (inside + edge), value * value * merged,
+                              : inside_frame * vec4(value * value * inside, value * value * merged,
                                                     cell.flux * cell.open, area * cell.open);
   sum_up();
   vec4 all = sums_of[0];
+  barrier();
+  return all;
+}
+
+// The squared error of straight edges, in values of the item, within the frame.
+float sum_edge_errors(Cell cell, float value, float inside_frame) {
+  bool is_edge = cell.is_drawn && cell.open < 1.0;
+  float edge = is_edge ? cell.length_px * (squared_sag() + squared_sag_of_bounds(gl_LocalInvocationIndex)) : 0.0;
+  sums_of[gl_LocalInvocationIndex] = vec4(inside_frame * value * value * edge, 0.0, 0.0, 0.0);
+  sum_up();
+  float all = sums_of[0].x;
   barrier();
   return all;
 }
@@ -168,7 +239,7 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
 // is not that of the fluxes: ghosts change their colour from one side to the other.
 vec2 compare_with_middle(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
-  vec2 moved = places[k] - middle_places[k];
+  vec2 moved = places[k] - middle_place;
   float scale = value / max(cell.density, 1e-37), weight = max(abs(cell.area_px), 1.0) * cell.open * inside_frame;
   float here = cell.density * scale, there = middle_density * scale;
   bool counts = cell.is_drawn && cell.density > 0.0;
@@ -207,11 +278,13 @@ void measure(uint item, bool is_middle, vec4 box) {
   float inside_frame = cell.is_drawn ? part_in_frame(k) : 0.0;
   if (cell.is_drawn) add_to_histogram(abs(cell.area_px) * cell.open * inside_frame, cell, gain);
   vec4 all = sum_errors(cell, value, inside_frame);
+  float edges = sum_edge_errors(cell, value, inside_frame);
   vec2 other = compare_with_middle(cell, value, inside_frame);
   float extent = find_extent(cell);
   if (k != 0u) return;
   uint word = STATE_WORDS * item;
   states[word + STATE_ERROR] = all.x;
+  states[word + STATE_EDGE_ERROR] = edges;
   states[word + STATE_MERGED_ERROR] = all.y + other.y;
   states[word + STATE_FLUX] = all.z;
   states[word + STATE_DISPLACEMENT] = other.x / max(all.w, 1e-30);
@@ -223,6 +296,7 @@ void main() {
   if (group >= p.group_count) return;
   vec4 box = final_box(group);
   uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
+  crossings_of_group = crossings_of(first);
   for (uint bin = gl_LocalInvocationIndex; bin < BINS; bin += 256u) histogram[bin] = 0u;
   barrier();
   if (!(box.z > 0.0)) {
