@@ -194,17 +194,27 @@ void add_smoothness(const Levels& levels, const AmplitudeSettings& settings, Eig
   }
 }
 
-Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
-  const Eigen::VectorXd scale =
-      matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
-  Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-  scaled.diagonal().array() = 1.0 + kRidge;
-  const Eigen::VectorXd scaled_right = scale.cwiseProduct(right);
-  const Eigen::LLT<Eigen::MatrixXd> fast(
-      scaled);  // in blocks; LDLT, which is not, for what the ridge leaves indefinite
-  if (fast.info() == Eigen::Success) return scale.cwiseProduct(Eigen::VectorXd(fast.solve(scaled_right)));
-  return scale.cwiseProduct(Eigen::VectorXd(scaled.selfadjointView<Eigen::Lower>().ldlt().solve(scaled_right)));
-}
+// Factors of a symmetric matrix, given by its lower half, with a ridge on its diagonal.
+class Factors {
+ public:
+  explicit Factors(const Eigen::MatrixXd& matrix)
+      : scale_(matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; })) {
+    Eigen::MatrixXd scaled = scale_.asDiagonal() * matrix * scale_.asDiagonal();
+    scaled.diagonal().array() = 1.0 + kRidge;
+    fast_.compute(scaled);  // in blocks; LDLT, which is not, for what the ridge leaves indefinite
+    if (fast_.info() != Eigen::Success) sure_.compute(scaled.selfadjointView<Eigen::Lower>());
+  }
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const {
+    const Eigen::MatrixXd scaled = scale_.asDiagonal() * right;
+    if (fast_.info() == Eigen::Success) return scale_.asDiagonal() * fast_.solve(scaled);
+    return scale_.asDiagonal() * sure_.solve(scaled);
+  }
+
+ private:
+  Eigen::VectorXd scale_;
+  Eigen::LLT<Eigen::MatrixXd> fast_;
+  Eigen::LDLT<Eigen::MatrixXd> sure_;
+};
 
 AngleCurve curve_of(const Level& level, const Eigen::VectorXd& solution, double s_max) {
   AngleCurve curve{level.parity, std::vector<double>(level.count)};
@@ -228,7 +238,7 @@ bool hold_at_zero(const Level& level, const Eigen::VectorXd& solution, std::span
     any = true;
     const std::vector<double> terms = angle_terms(level, station.s / flare.s_max);
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j)
+      for (std::size_t j = 0; j < terms.size(); ++j)
         matrix(level.first + static_cast<Eigen::Index>(i), level.first + static_cast<Eigen::Index>(j)) +=
             weight * terms[i] * terms[j];
     }
@@ -236,20 +246,44 @@ bool hold_at_zero(const Level& level, const Eigen::VectorXd& solution, std::span
   return any;
 }
 
-// The coefficients of one channel for which no border or inside falls below 0.
+// The unknowns of levels that must not fall below 0, and those of profiles' terms.
+struct Split {
+  std::vector<Eigen::Index> levels, terms;
+};
+
+Split split_of(const Levels& levels) {
+  Split split;
+  for (const Level& level : levels.all)
+    for (std::size_t i = 0; i < level.count; ++i)
+      (level.kind < kFirstTerm ? split.levels : split.terms).push_back(level.first + static_cast<Eigen::Index>(i));
+  return split;
+}
+
+// The coefficients of one channel for which no border or inside falls below 0. Terms of profiles, which are most of the
+// unknowns, are eliminated once; the equations that hold levels at 0 do not contain them.
 Eigen::VectorXd non_negative(Eigen::MatrixXd matrix, const Eigen::VectorXd& right, const Levels& levels,
                              std::span<const FitStation> stations, const MeasuredFlare& flare) {
-  Eigen::VectorXd solution = solved(matrix, right);
-  for (int round = 0; round < kHoldingRounds; ++round) {
+  matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
+  const Split split = split_of(levels);
+  const Factors terms(matrix(split.terms, split.terms));
+  const Eigen::MatrixXd from_levels = terms.solve(matrix(split.terms, split.levels));
+  const Eigen::VectorXd alone = terms.solve(right(split.terms));
+  const Eigen::MatrixXd eliminated = matrix(split.levels, split.terms) * from_levels;
+  const Eigen::VectorXd reduced_right = right(split.levels) - matrix(split.levels, split.terms) * alone;
+  Eigen::VectorXd solution(levels.unknowns);
+  for (int round = 0;; ++round) {
+    const Eigen::MatrixXd held = matrix(split.levels, split.levels);
+    Eigen::MatrixXd reduced = held - eliminated;
+    reduced.diagonal() += kRidge * held.diagonal();
+    solution(split.levels) = Factors(reduced).solve(reduced_right);
+    solution(split.terms) = alone - from_levels * solution(split.levels);
     bool any = false;
     for (const Level& level : levels.all) {
-      if (level.kind < kFirstTerm && level.count > 0)
+      if (round < kHoldingRounds && level.kind < kFirstTerm && level.count > 0)
         any = hold_at_zero(level, solution, stations, flare, matrix) || any;
     }
-    if (!any) break;
-    solution = solved(matrix, right);
+    if (!any) return solution;
   }
-  return solution;
 }
 
 void set_levels(const Levels& levels, const Eigen::VectorXd& solution, std::size_t channel, MeasuredFlare& flare) {
@@ -281,10 +315,12 @@ MeasuredFlare with_best_amplitudes(std::span<const FitStation> stations, Measure
         [&](std::size_t k, const LinearEquations& one) { add_linear(one, levels, stations[k].s / flare.s_max, sum); });
     if (!done) return flare;
     std::array<Eigen::VectorXd, kRgb> solutions;
-    for (std::size_t c = 0; c < kRgb; ++c) {
+    parallel_for(kRgb, context, [&](std::size_t c) {
       add_smoothness(levels, settings, sum.matrix[c]);
-      solutions[c] = non_negative(sum.matrix[c], sum.right.col(static_cast<Eigen::Index>(c)), levels, stations, flare);
-    }
+      solutions[c] =
+          non_negative(std::move(sum.matrix[c]), sum.right.col(static_cast<Eigen::Index>(c)), levels, stations, flare);
+    });
+    if (context.cancelled()) return flare;
     for (std::size_t c = 0; c < kRgb; ++c) set_levels(levels, solutions[c], c, flare);
   }
   return flare;
