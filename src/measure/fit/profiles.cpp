@@ -13,12 +13,11 @@
 #include "measure/fit/amplitudes.h"
 #include "measure/fit/one_ghost.h"
 #include "measure/fit/small_ghosts.h"
-#include "measure/fit/station_figures.h"
 
 namespace contrejour::inline internal {
 namespace {
 
-constexpr std::array<std::size_t, 4> kCoefficients{2, 3, 4, 6};  // the first: where no station is held out
+constexpr std::array<std::size_t, 4> kCoefficients{2, 3, 4, 6};  // only the first where no station is held out
 constexpr int kShapeIterations = 10;
 constexpr int kMostFromResidual = 8;  // ghosts that the search after profiles may add
 constexpr double kLeastHeldGain = 8.0;  // of the cost at the stations held out, for such a ghost
@@ -95,31 +94,14 @@ struct ProfileFit {
   }
 };
 
-// The squared error of a flare at stations, over what they show.
-double squared_error(const std::vector<FitStation>& stations, const MeasuredFlare& flare) {
-  ClearSums sums;
-  for (const FitStation& station : stations) {
-    const ClearSums one = clear_sums(station, model_of_station(flare, station));
-    sums.left += one.left;
-    sums.all += one.all;
-  }
-  return sums.all > 0.0 ? sums.left / sums.all : 0.0;
-}
-
-// Profiles with as many coefficients as make the stations held out likeliest, unless their squared error grows: a
-// robust cost alone would give up a few bright pixels, such as those of a caustic. False if none helps.
+// Profiles with as many coefficients as make the stations held out likeliest. False if none helps.
 bool choose_profiles(ProfileFit& all) {
   const MeasuredFlare start = with_diffuse_ghosts(all.fit.flare(), all.stations.front().frame.pixels);
   std::optional<std::size_t> best;
-  double least_error = 0.0;
   for (const std::size_t count : kCoefficients) {
     all.settings.profile_coefficients = count;
-    MeasuredFlare flare = all.with_levels(start);
-    const double error = squared_error(all.held, flare);
-    if (best && error > least_error) break;
-    if (!all.keep(std::move(flare), 0.0)) break;
+    if (!all.keep(all.with_levels(start), 0.0)) break;
     best = count;
-    least_error = error;
     if (!all.least) break;
   }
   if (best) all.settings.profile_coefficients = *best;

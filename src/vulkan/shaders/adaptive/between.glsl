@@ -6,8 +6,11 @@
 //     2  3  4  5      the cell is 3, 4, 8, 7
 //     6  7  8  9
 //       10 11
+// An open cell is drawn with straight sides (cells.comp). Points of a side that it shares lie on a straight line here,
+// too, so that no seam shows.
 uint around[12];
 bool exists[12];
+bvec4 side_is_straight;  // the side below, above, on the left, on the right
 
 const ivec2 kAround[12] = ivec2[12](ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, 0), ivec2(1, 0), ivec2(2, 0),
                                     ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(0, 2), ivec2(1, 2));
@@ -20,6 +23,10 @@ void find_around() {
     around[k] = inside ? ray_at(uint(at.x), uint(at.y)) : 0u;
     exists[k] = inside && !failed(rays[around[k]]);
   }
+  bool open[12];
+  for (int k = 0; k < 12; ++k) open[k] = exists[k] && passes(around[k]);
+  side_is_straight = bvec4(open[0] && open[1] && open[3] && open[4], open[7] && open[8] && open[10] && open[11],
+                           open[2] && open[6] && open[3] && open[7], open[4] && open[8] && open[5] && open[9]);
 }
 
 float weights[12];
@@ -41,17 +48,29 @@ void bend(int before, int first, int last, int after, float amount) {
   }
 }
 
-void set_weights(vec2 at) {
+bool is_on_straight_row(vec2 at) {
+  return side_is_straight.x && at.y == 0.0 || side_is_straight.y && at.y == 1.0;
+}
+bool is_on_straight_column(vec2 at) {
+  return side_is_straight.z && at.x == 0.0 || side_is_straight.w && at.x == 1.0;
+}
+
+// along_row, along_column: whether values bend there, or are linear.
+void set_weights(vec2 at, bool along_row, bool along_column) {
   for (int k = 0; k < 12; ++k) weights[k] = 0.0;
   weights[3] = (1.0 - at.x) * (1.0 - at.y);
   weights[4] = at.x * (1.0 - at.y);
   weights[7] = (1.0 - at.x) * at.y;
   weights[8] = at.x * at.y;
   vec2 amount = 0.5 * at * (1.0 - at);
-  bend(2, 3, 4, 5, amount.x * (1.0 - at.y));
-  bend(6, 7, 8, 9, amount.x * at.y);
-  bend(0, 3, 7, 10, amount.y * (1.0 - at.x));
-  bend(1, 4, 8, 11, amount.y * at.x);
+  if (along_row) {
+    bend(2, 3, 4, 5, amount.x * (1.0 - at.y));
+    bend(6, 7, 8, 9, amount.x * at.y);
+  }
+  if (along_column) {
+    bend(0, 3, 7, 10, amount.y * (1.0 - at.x));
+    bend(1, 4, 8, 11, amount.y * at.x);
+  }
 }
 
 vec4 ray_between() {

@@ -45,12 +45,17 @@ void list_triangle(vec2 gradient) {
 void set_part(vec2 low, float size, bool is_second) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
   for (int k = 0; k < 3; ++k) {
-    set_weights(low + size * corners[k == 0 ? 0 : is_second ? k + 1 : k]);
+    vec2 at = low + size * corners[k == 0 ? 0 : is_second ? k + 1 : k];
+    set_weights(at, true, true);
     vec4 ray = ray_between();
-    pixels[k] = ray.xy - vec2(base);
     transmissions[k] = max(ray.z, 0.0);
     heights_of_triangle[k] = ray.w;
     for (uint c = 0u; c < crossings_of(item); ++c) stops_of_triangle[c][k] = crossing_between(c);
+    if (is_on_straight_row(at) || is_on_straight_column(at)) {
+      set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
+      ray.xy = ray_between().xy;
+    }
+    pixels[k] = ray.xy - vec2(base);
   }
 }
 
