@@ -13,8 +13,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define MEAN_SQUARED_ARCH (8.0 / 15.0)    // of a parabola of height 1 over its chord
 
-// Of rays: pixels; transmission, -1 where the ray fails; the largest height at a rim; the crossing of the stop that is
-// farthest outside.
+// Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at which
+// it crosses the stop.
 shared vec2 places[256];
 shared float transmissions[256];
 shared float rims[256];
