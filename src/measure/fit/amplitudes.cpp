@@ -315,12 +315,12 @@ MeasuredFlare with_best_amplitudes(std::span<const FitStation> stations, Measure
         [&](std::size_t k, const LinearEquations& one) { add_linear(one, levels, stations[k].s / flare.s_max, sum); });
     if (!done) return flare;
     std::array<Eigen::VectorXd, kRgb> solutions;
-    parallel_for(kRgb, context, [&](std::size_t c) {
+    const bool solved = parallel_for(kRgb, context, [&](std::size_t c) {
       add_smoothness(levels, settings, sum.matrix[c]);
       solutions[c] =
           non_negative(std::move(sum.matrix[c]), sum.right.col(static_cast<Eigen::Index>(c)), levels, stations, flare);
     });
-    if (context.cancelled()) return flare;
+    if (!solved) return flare;
     for (std::size_t c = 0; c < kRgb; ++c) set_levels(levels, solutions[c], c, flare);
   }
   return flare;

@@ -91,9 +91,9 @@ uint group_word(uint group, uint k) { return groups[GROUP_WORDS * group + k]; }
 uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * float(p.width) * float(p.height)), 1u); }
 
 // An item's state: error of a grid of COARSE_CELLS a side between its edges, of the edges, and of drawing it in another
-// one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the other, relative
-// to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the items that are
-// drawn by it.
+// one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the
+// other, relative to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the
+// items that are drawn by it.
 #define STATE_ERROR 0u
 #define STATE_MERGED_ERROR 1u
 #define STATE_FLUX 2u

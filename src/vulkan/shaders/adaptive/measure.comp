@@ -13,8 +13,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define MEAN_SQUARED_ARCH (8.0 / 15.0)    // of a parabola of height 1 over its chord
 
-// Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at which
-// it crosses the stop.
+// Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at
+// which it crosses the stop.
 shared vec2 places[256];
 shared float transmissions[256];
 shared float rims[256];
@@ -207,7 +207,8 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
   barrier();
 }
 
-// Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie elsewhere.
+// Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie
+// elsewhere.
 vec4 sum_errors(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
   vec2 moved = places[k] - middle_place;
