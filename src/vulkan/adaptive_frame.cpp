@@ -70,7 +70,10 @@ void AdaptiveFrame::upload_items(const Frame& band) {
                      .gain = item.gain,
                      .window_mm = {static_cast<float>(item.window_mm.x), static_cast<float>(item.window_mm.y)},
                      .start = item.start,
-                     .pixel_origin = {static_cast<float>(origin.x), static_cast<float>(origin.y)}});
+                     .pixel_origin = {static_cast<float>(origin.x), static_cast<float>(origin.y)},
+                     .gain_by_x = item.gain_by_x,
+                     .gain_by_y = item.gain_by_y,
+                     .middle_mm = {static_cast<float>(item.middle_mm.x), static_cast<float>(item.middle_mm.y)}});
   }
   std::vector<GroupRecord> groups;
   groups.reserve(job_.groups.size());

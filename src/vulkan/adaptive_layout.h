@@ -27,14 +27,16 @@ struct ItemRecord {
   std::uint32_t start = 0;
   std::array<float, 2> pixel_origin{};  // of the sensor's middle, with the ghost's displacement
   std::array<std::uint32_t, 2> unused{};
+  std::array<float, 3> gain_by_x{}, gain_by_y{};
+  std::array<float, 2> middle_mm{};
 };
-static_assert(sizeof(ItemRecord) == 64);
+static_assert(sizeof(ItemRecord) == 96);
 
 struct GroupRecord {
   std::uint32_t first = 0, count = 0, middle = 0, unused = 0;
 };
 
-inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 64, kCutBytes = 8,
+inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;
 inline constexpr std::uint32_t kAdaptiveTile = 16, kRaysABlock = 64;
 

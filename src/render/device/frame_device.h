@@ -65,7 +65,9 @@ struct DeviceItem {
   std::uint32_t path = 0, start = 0;  // numbers in the job
   Vec2 window_mm;  // size of the window of the entrance plane in which the pupil lies
   double irradiance = 1.0;  // a ray of transmission 1 carries its part of the window's area times this
-  std::array<float, 3> gain{};  // from flux to pixel values
+  std::array<float, 3> gain{};  // from flux to pixel values, at the middle
+  std::array<float, 3> gain_by_x{}, gain_by_y{};  // its change by mm of the entrance plane
+  Vec2 middle_mm{};  // from the window's lower corner
   Vec2 shift_mm{};  // of the ghost, on the sensor
 };
 

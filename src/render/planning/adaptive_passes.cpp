@@ -13,15 +13,18 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMinBands = 3;      // at least this many bands
-constexpr double kMaxSpread_px = 1.5;       // the largest distance between the images at the two ends of a band
 constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
 constexpr int kSide = 9;                // rays a side
+constexpr double kLeastSpread = 1e-6;  // of the rays that arrive: narrower pupils have no slopes
 constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays that count
 
 // A ghost's transmittance in every pass and the displacement of its image over the spectrum, estimated from a few rays.
 struct GhostSpectrum {
   WavelengthSamples samples;
   std::vector<double> carried;  // the mean transmittance, one for each pass
+  std::vector<Vec2> rays_mm;  // the rays that arrive at all traced wavelengths, relative to middle_mm
+  std::vector<std::vector<double>> by_ray;  // for each pass, the transmittance of these rays
+  Vec2 middle_mm;  // of the pupil
   double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
 };
 
@@ -31,6 +34,15 @@ double mean_transmission(const RayGrid& grid) {
   for (std::size_t k = 0; k < grid.blocked.size(); ++k)
     if (grid.blocked[k] <= kNearlyThrough) sum += grid.transmission[k], ++count;
   return count > 0 ? sum / count : 0.0;
+}
+
+// The numbers of the rays that arrive in all grids.
+std::vector<std::size_t> common_rays(std::span<const RayGrid> grids) {
+  std::vector<std::size_t> common;
+  for (std::size_t k = 0; k < grids.front().blocked.size(); ++k)
+    if (std::ranges::all_of(grids, [&](const RayGrid& grid) { return grid.blocked[k] <= kNearlyThrough; }))
+      common.push_back(k);
+  return common;
 }
 
 double shift_mm(const RayGrid& a, const RayGrid& b) {
@@ -64,9 +76,21 @@ class GhostProbe {
       grids[k].trace(ghost_path(lens_, ghost_, at_nm), plan_.tables.at(at_nm), iris_, light_.source, window_.z_mm,
                      *pupil, kSide, PacketPrecision::Double);
     }
+    const std::vector<std::size_t> common = common_rays(grids);
+    const Vec2 step = grids.front().step_mm();
+    out.middle_mm = (pupil->low + pupil->high) * 0.5;
+    for (const std::size_t ray : common) {
+      const Vec2 steps{static_cast<double>(ray % kSide), static_cast<double>(ray / kSide)};
+      out.rays_mm.push_back(pupil->low + Vec2{steps.x * step.x, steps.y * step.y} - out.middle_mm);
+    }
+    out.by_ray.assign(lambda_nm.size(), std::vector<double>(common.size(), 0.0));
     for (std::size_t pass = 0; pass < lambda_nm.size(); ++pass) {
       const std::vector<double> factors = out.samples.factors(grids.size(), pass);
-      for (std::size_t k = 0; k < grids.size(); ++k) out.carried[pass] += factors[k] * mean_transmission(grids[k]);
+      for (std::size_t k = 0; k < grids.size(); ++k) {
+        out.carried[pass] += factors[k] * mean_transmission(grids[k]);
+        for (std::size_t at = 0; at < common.size(); ++at)
+          out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at]]);
+      }
       out.carried[pass] = std::max(out.carried[pass], 0.0);
     }
     if (grids.size() > 1) out.shift_mm = shift_mm(grids[0], grids[1]);
@@ -99,9 +123,43 @@ class GhostProbe {
   IrisShape iris_{Iris{}};
 };
 
+// Sets the slopes with which a pass at the wavelength of `at` has about the light of all passes at each ray. Its light
+// in all stays that of its gains.
+void set_slopes(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t at, std::size_t first,
+                std::size_t last, PlannedPass& out) {
+  const std::vector<double>& own = spectrum.by_ray[at];
+  double xx = 0.0, xy = 0.0, yy = 0.0, sum = 0.0;
+  Vec2 mean;
+  for (std::size_t ray = 0; ray < own.size(); ++ray) {
+    sum += own[ray];
+    mean = mean + spectrum.rays_mm[ray] * own[ray];
+  }
+  if (!(sum > 0.0)) return;
+  mean = mean * (1.0 / sum);
+  for (std::size_t ray = 0; ray < own.size(); ++ray) {
+    const Vec2 p = (spectrum.rays_mm[ray] - mean) * own[ray];
+    xx += p.x * p.x, xy += p.x * p.y, yy += p.y * p.y;
+  }
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > kLeastSpread * xx * yy)) return;
+  out.slopes.middle_mm = spectrum.middle_mm + mean;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double x = 0.0, y = 0.0;
+    for (std::size_t ray = 0; ray < own.size(); ++ray) {
+      double light = -out.gain[c] * own[ray];
+      for (std::size_t k = first; k < last; ++k) light += passes[k].gain[c] * spectrum.by_ray[k][ray];
+      const Vec2 p = (spectrum.rays_mm[ray] - mean) * own[ray];
+      x += p.x * light, y += p.y * light;
+    }
+    out.slopes.by_x[c] = (yy * x - xy * y) / determinant;
+    out.slopes.by_y[c] = (xx * y - xy * x) / determinant;
+  }
+}
+
 // One pass, at the middle one, for the passes from `first` to the one before `last`.
-PlannedPass joined(std::span<const PlannedPass> passes, std::span<const double> carried, std::size_t first,
+PlannedPass joined(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t first,
                    std::size_t last) {
+  const std::vector<double>& carried = spectrum.carried;
   std::size_t at = (first + last) / 2;
   for (std::size_t k = first; k < last; ++k)
     if (!(carried[at] > 0.0) && carried[k] > 0.0) at = k;
@@ -114,6 +172,7 @@ PlannedPass joined(std::span<const PlannedPass> passes, std::span<const double> 
     squares += std::pow(passes[k].lambda_nm - out.lambda_nm, 2.0) + passes[k].spread_nm * passes[k].spread_nm;
   }
   out.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
+  if (last - first > 1) set_slopes(passes, spectrum, at, first, last, out);
   return out;
 }
 
@@ -122,27 +181,25 @@ void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectru
                std::size_t first, std::size_t last, std::vector<PlannedPass>& out) {
   const auto& samples = spectrum.samples;
   const double wide_mm = 0.5 * spectrum.shift_mm * std::abs(samples.position(last - 1) - samples.position(first));
-  if (last - first == 1 || wide_mm <= max_spread_mm)
-    return out.push_back(joined(passes, spectrum.carried, first, last));
+  if (last - first == 1 || wide_mm <= max_spread_mm) return out.push_back(joined(passes, spectrum, first, last));
   const std::size_t middle = (first + last) / 2;
   add_bands(passes, spectrum, max_spread_mm, first, middle, out);
   add_bands(passes, spectrum, max_spread_mm, middle, last, out);
 }
 
 std::vector<PlannedPass> passes_for(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum,
-                                    double pixel_pitch_mm) {
+                                    double max_spread_mm) {
   std::vector<PlannedPass> out;
   const std::size_t thirds = std::min(kMinBands, passes.size());
   for (std::size_t k = 0; k < thirds; ++k)
-    add_bands(passes, spectrum, kMaxSpread_px * pixel_pitch_mm, k * passes.size() / thirds,
-              (k + 1) * passes.size() / thirds, out);
+    add_bands(passes, spectrum, max_spread_mm, k * passes.size() / thirds, (k + 1) * passes.size() / thirds, out);
   return out;
 }
 
 }  // namespace
 
 std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensState& lens, const Frame& frame,
-                                              const Context& context) {
+                                              const Context& context, double max_spread_px) {
   FramePlan out = plan;
   if (!plan.adapts_passes) return out;
   std::vector<GhostOfLight> pairs;
@@ -154,7 +211,7 @@ std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensS
     const PlannedLight& light = plan.lights[pairs[k].light];
     if (light.passes.empty()) return;
     const auto spectrum = GhostProbe(plan, lens, plan.ghosts[pairs[k].ghost], light, quiet).spectrum();
-    if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, frame.pixel_pitch_mm);
+    if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, max_spread_px * frame.pixel_pitch_mm);
   });
   return done ? std::optional(std::move(out)) : std::nullopt;
 }

@@ -10,6 +10,14 @@
 
 namespace contrejour::inline internal {
 
+// How the gains of a pass change over the entrance plane: the other wavelengths that it represents meet the coatings at
+// angles of their own. At the point p the gain of a channel is gain[c] + by_x[c] (p.x - middle.x) + by_y[c] (p.y -
+// middle.y), in mm.
+struct GainSlopes {
+  Vec2 middle_mm;
+  Rgb by_x{}, by_y{};
+};
+
 // One wavelength at which a ghost of a light is rendered, with its gains.
 struct PlannedPass {
   double lambda_nm = 550;
@@ -18,12 +26,13 @@ struct PlannedPass {
   // further factors.
   Rgb gain{};
   double spread_nm = 0;  // root mean square distance of the wavelengths it represents from its own
+  GainSlopes slopes{};  // 0 unless it represents several passes (with_adaptive_passes); a method may ignore them
 };
 
 struct PlannedLight {
   LightSource source;
   std::vector<PlannedPass> passes;  // in order of wavelength
-  std::size_t index = 0;            // of the frame's light that this is, or is a piece of
+  std::size_t index = 0;  // of the frame's light that this is, or is a piece of
 };
 
 }  // namespace contrejour::inline internal

@@ -88,10 +88,20 @@ uvec2 cells_for(uint item, float allowed_by_root) {
   return uvec2(cells, clamp(ceil(max(edges, CUT_FINENESS) / cells), 1.0, float(MOST_CUT_PARTS)));
 }
 
+void set_gains(uint item, vec3 gain, mat2x3 slopes) {
+  uint word = STATE_WORDS * item;
+  for (uint c = 0u; c < 3u; ++c) {
+    states[word + STATE_GAIN + c] = gain[c];
+    states[word + STATE_SLOPES + c] = slopes[0][c];
+    states[word + STATE_SLOPES + 3u + c] = slopes[1][c];
+  }
+}
+
 // Draws items by the middle one of their group where that is within the error and keeps the colours.
 void merge(uint group, float allowed_by_root) {
   uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
   vec3 gain = item_gain(middle);
+  mat2x3 slopes = item_gain_slopes(middle);
   for (uint item = first; item < first + count; ++item) {
     uint word = STATE_WORDS * item;
     uvec2 cells_and_parts = cells_for(item, allowed_by_root);
@@ -99,14 +109,17 @@ void merge(uint group, float allowed_by_root) {
     float allowed = MERGED_SHARE * allowed_by_root * cube_root(squared_error_of(item));
     if (item != middle && cells > 0u && state(middle, STATE_FLUX) > 0.0 && state(item, STATE_MERGED_ERROR) <= allowed &&
         state(item, STATE_DISPLACEMENT) <= LARGEST_MERGED) {
-      gain += item_gain(item) * (state(item, STATE_FLUX) / state(middle, STATE_FLUX));
+      float ratio = state(item, STATE_FLUX) / state(middle, STATE_FLUX);
+      mat2x3 own = item_gain_slopes(item);
+      gain += (item_gain(item) + own * (item_middle(middle) - item_middle(item))) * ratio;
+      slopes += own * ratio;
       cells = 0u;
     }
     states[word + STATE_CELLS] = uintBitsToFloat(cells);
     states[word + STATE_PARTS] = uintBitsToFloat(cells_and_parts.y);
-    for (uint c = 0u; c < 3u; ++c) states[word + STATE_GAIN + c] = item_gain(item)[c];
+    set_gains(item, item_gain(item), item_gain_slopes(item));
   }
-  for (uint c = 0u; c < 3u; ++c) states[STATE_WORDS * middle + STATE_GAIN + c] = gain[c];
+  set_gains(middle, gain, slopes);
 }
 
 uint blocks_of(uint item) {

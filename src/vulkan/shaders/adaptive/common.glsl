@@ -4,9 +4,9 @@
 // items of a ghost and a light. Sizes and layouts are those of src/vulkan/adaptive_layout.h.
 #include "../buffers.glsl"
 
-#define ITEM_WORDS 16u
+#define ITEM_WORDS 24u
 #define GROUP_WORDS 4u
-#define STATE_WORDS 16u
+#define STATE_WORDS 24u
 #define LEVELS 6u  // of the search for the pupil, at most
 
 layout(std430, set = 0, binding = 14) readonly buffer Items { uint items[]; };
@@ -78,6 +78,12 @@ uint group_of(uint item) { return item_word(item, 3u); }
 uint crossings_of(uint item) { return item_word(item, 4u); }
 float item_irradiance(uint item) { return item_float(item, 5u); }  // flux of a mm^2 of the entrance plane
 vec3 item_gain(uint item) { return vec3(item_float(item, 6u), item_float(item, 7u), item_float(item, 8u)); }
+// The change of the gains with the place in the window, by mm, and where they are item_gain().
+mat2x3 item_gain_slopes(uint item) {
+  return mat2x3(item_float(item, 16u), item_float(item, 17u), item_float(item, 18u), item_float(item, 19u),
+                item_float(item, 20u), item_float(item, 21u));
+}
+vec2 item_middle(uint item) { return vec2(item_float(item, 22u), item_float(item, 23u)); }
 vec2 item_window(uint item) { return vec2(item_float(item, 9u), item_float(item, 10u)); }  // its size, mm
 
 // Words of a group: its first item, their number, the item in whose wavelength the pupil is searched.
@@ -103,12 +109,17 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 #define STATE_EDGE_ERROR 8u
 #define STATE_EXTENT 9u  // of the image, pixels
 #define STATE_PARTS 10u
+#define STATE_SLOPES 16u  // of the gains: by x, then by y
 #define COARSE_CELLS 15u
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
 float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
-vec3 state_gain(uint item) {
-  return vec3(state(item, STATE_GAIN), state(item, STATE_GAIN + 1u), state(item, STATE_GAIN + 2u));
+vec3 state_gain(uint item, vec2 at) {
+  vec2 by = at - item_middle(item);
+  vec3 gain;
+  for (uint c = 0u; c < 3u; ++c)
+    gain[c] = state(item, STATE_GAIN + c) + state(item, STATE_SLOPES + c) * by.x + state(item, STATE_SLOPES + 3u + c) * by.y;
+  return gain;
 }
 
 // The box of a level of the search, from the bounds that the level before found.

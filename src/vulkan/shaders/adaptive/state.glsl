@@ -31,8 +31,8 @@ int cell_state(uvec4 v, uint crossing_count) {
 void set_cell(uvec4 v) {
   vec2 near = failed(rays[v.x]) ? rays[v.z].xy : rays[v.x].xy;
   base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
-  gain = state_gain(item);
   vec4 box = final_box(group_of(item));
   float cells = float(side - 1u);
+  gain = state_gain(item, box.xy + box.zw * (vec2(own % side, own / side) + 0.5) / cells);
   triangle_weight = 0.5 * box.z * box.w / (cells * cells) * item_irradiance(item);
 }
