@@ -15,7 +15,9 @@ namespace {
 constexpr std::size_t kMinBands = 3;      // at least this many bands
 constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
 constexpr int kSide = 9;                // rays a side
-constexpr double kLeastSpread = 1e-6;  // of the rays that arrive: narrower pupils have no slopes
+// Slopes of fewer rays, or of rays that lie nearly on a line, would be arbitrary across it.
+constexpr std::size_t kFewestRays = 6;
+constexpr double kLeastSpread = 1e-3;  // of the determinant over that of independent x and y
 constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays that count
 
 // A ghost's transmittance in every pass and the displacement of its image over the spectrum, estimated from a few rays.
@@ -123,11 +125,12 @@ class GhostProbe {
   IrisShape iris_{Iris{}};
 };
 
-// Sets the slopes with which a pass at the wavelength of `at` has about the light of all passes at each ray. Its light
-// in all stays that of its gains.
+// Sets the slopes with which a pass at the wavelength of `at` has about the light of all passes at each ray (least
+// squares). They are taken about the mean place of its light, so that its light in all stays that of its gains.
 void set_slopes(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t at, std::size_t first,
                 std::size_t last, PlannedPass& out) {
   const std::vector<double>& own = spectrum.by_ray[at];
+  if (own.size() < kFewestRays) return;
   double xx = 0.0, xy = 0.0, yy = 0.0, sum = 0.0;
   Vec2 mean;
   for (std::size_t ray = 0; ray < own.size(); ++ray) {

@@ -114,11 +114,14 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
 float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
+// The gains at a place in the window, mm.
 vec3 state_gain(uint item, vec2 at) {
   vec2 by = at - item_middle(item);
   vec3 gain;
-  for (uint c = 0u; c < 3u; ++c)
-    gain[c] = state(item, STATE_GAIN + c) + state(item, STATE_SLOPES + c) * by.x + state(item, STATE_SLOPES + 3u + c) * by.y;
+  for (uint c = 0u; c < 3u; ++c) {
+    vec2 slopes = vec2(state(item, STATE_SLOPES + c), state(item, STATE_SLOPES + 3u + c));
+    gain[c] = state(item, STATE_GAIN + c) + dot(slopes, by);
+  }
   return gain;
 }
 
