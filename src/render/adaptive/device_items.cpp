@@ -115,7 +115,7 @@ std::string device_lacks(const PlannedFrame& planned) {
   if (planned.lens.iris.field) return "a picture as the iris is";
   if (planned.settings.ringing.mode != RingingMode::None) return "ringing is";
   if (planned.plan.dirt) return "dirt is";
-  // The measures of streaks are too coarse: in small frames an anamorphic lens comes out at 44 dB, and 50 are asked for.
+  // The measures of streaks are too coarse: an anamorphic lens in a small frame reaches 44 dB, and 50 are asked for.
   if (!planned.lens.has_axial_symmetry()) return "a lens without axial symmetry is";
   return {};
 }
