@@ -2,6 +2,7 @@
 #include "vulkan/adaptive_frame.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/tasks.h"
 #include "vulkan/grid_frame.h"
@@ -23,6 +24,35 @@ void copy_rows(const float* from, int rows, Image& image, int first_row) {
 }
 
 std::uint32_t narrow(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
+
+// Levels of an image pyramid (DownsampledPicture).
+std::uint32_t levels_of(std::uint32_t side) {
+  std::uint32_t levels = 1;
+  for (; side % 2 == 0 && side > 2; side /= 2) ++levels;
+  return levels;
+}
+
+// The records of all patterns, followed by their tables.
+std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
+  std::vector<std::uint32_t> table_at;
+  std::size_t size = sizeof(PatternRecord) / sizeof(std::uint32_t) * all.patterns.size();
+  for (const std::vector<float>& table : all.tables) {
+    table_at.push_back(narrow(size));
+    size += table.size();
+  }
+  std::vector<std::uint32_t> words;
+  words.reserve(size);
+  for (const DevicePattern& p : all.patterns) {
+    const PatternRecord record{table_at[p.table], p.side,      p.side == 0 ? 0 : levels_of(p.side),
+                               p.outer_radius,    p.scale,     p.level_from,
+                               p.roughness,       p.difference};
+    const auto numbers = std::bit_cast<std::array<std::uint32_t, 8>>(record);
+    words.insert(words.end(), numbers.begin(), numbers.end());
+  }
+  for (const std::vector<float>& table : all.tables)
+    for (const float number : table) words.push_back(std::bit_cast<std::uint32_t>(number));
+  return words;
+}
 
 }  // namespace
 
@@ -50,6 +80,18 @@ void AdaptiveFrame::upload_paths() {
   kept_.paths = job_.paths;
 }
 
+void AdaptiveFrame::upload_patterns() {
+  if (!job_.patterns || kept_.patterns == job_.patterns) return;
+  kept_.patterns = nullptr;
+  const std::vector<std::uint32_t> words = pattern_words(*job_.patterns);
+  const std::uint64_t bytes = sizeof(std::uint32_t) * words.size();
+  if (bytes > info_.storage_range_bytes)
+    throw vk::OutOfDeviceMemoryError("the stop patterns of a frame do not fit into the device's buffers");
+  device_.upload(Slot::Patterns, words);
+  work_.uploaded_bytes += bytes;
+  kept_.patterns = job_.patterns;
+}
+
 void AdaptiveFrame::upload_items(const Frame& band) {
   std::vector<float> starts;
   for (const DeviceStart& start : job_.starts) {
@@ -71,6 +113,7 @@ void AdaptiveFrame::upload_items(const Frame& band) {
                      .window_mm = {static_cast<float>(item.window_mm.x), static_cast<float>(item.window_mm.y)},
                      .start = item.start,
                      .pixel_origin = {static_cast<float>(origin.x), static_cast<float>(origin.y)},
+                     .pattern = item.pattern == DevicePatterns::kNone ? 0 : item.pattern + 1,
                      .gain_by_x = item.gain_by_x,
                      .gain_by_y = item.gain_by_y,
                      .middle_mm = {static_cast<float>(item.middle_mm.x), static_cast<float>(item.middle_mm.y)}});
@@ -186,7 +229,7 @@ void AdaptiveFrame::fill_tiles() {
   device_.dispatch_indirect(Shader::AdaptiveBinWide, p, kIndirectWide);
   device_.barrier();
   device_.end_stage("tile lists");
-  dispatch(Shader::AdaptiveRaster, {p.tiles_across, p.tiles_down});
+  dispatch(job_.patterns ? Shader::AdaptiveRasterPatterned : Shader::AdaptiveRaster, {p.tiles_across, p.tiles_down});
   device_.barrier();
   device_.end_stage("tiles");
 }
@@ -237,6 +280,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
   const int rows = rows_a_band();
   upload_paths();
+  upload_patterns();
   for (int row = 0; row < frame.height && !context.cancelled(); row += rows) {
     Frame band = frame;
     band.origin_y += row;

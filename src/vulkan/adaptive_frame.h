@@ -29,6 +29,7 @@ struct AdaptiveKept {
   AdaptiveCapacity capacity;
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none
   std::vector<PathPlace> places;  // by path
+  std::shared_ptr<const DevicePatterns> patterns;  // that are uploaded
 };
 
 class AdaptiveFrame {
@@ -42,6 +43,7 @@ class AdaptiveFrame {
  private:
   [[nodiscard]] int rows_a_band() const;
   void upload_paths();
+  void upload_patterns();
   void upload_items(const Frame& band);
   void need_buffers();
   void record();

@@ -26,7 +26,8 @@ struct ItemRecord {
   std::array<float, 2> window_mm{};
   std::uint32_t start = 0;
   std::array<float, 2> pixel_origin{};  // of the sensor's middle, with the ghost's displacement
-  std::array<std::uint32_t, 2> unused{};
+  std::uint32_t pattern = 0;  // its number from 1 on; 0: none
+  std::uint32_t unused = 0;
   std::array<float, 3> gain_by_x{}, gain_by_y{};
   std::array<float, 2> middle_mm{};
 };
@@ -35,6 +36,13 @@ static_assert(sizeof(ItemRecord) == 96);
 struct GroupRecord {
   std::uint32_t first = 0, count = 0, middle = 0, unused = 0;
 };
+
+// A pattern of the stop, as shaders/adaptive/pattern.glsl reads it.
+struct PatternRecord {
+  std::uint32_t table_at = 0, side = 0, levels = 0;
+  float outer_radius = 0, scale = 0, level_from = 0, roughness = 0, difference = 0;
+};
+static_assert(sizeof(PatternRecord) == 32);
 
 inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;

@@ -21,7 +21,8 @@ Residence residence_of(std::size_t slot) {
     case Slot::Bounds:
     case Slot::Items:
     case Slot::Starts:
-    case Slot::Groups: return Residence::Upload;
+    case Slot::Groups:
+    case Slot::Patterns: return Residence::Upload;
     default: return Residence::Device;
   }
 }

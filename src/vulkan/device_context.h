@@ -56,8 +56,9 @@ enum class Slot : std::uint8_t {
   Indirect,
   Starts,
   Wide,
+  Patterns,
 };
-inline constexpr std::size_t kSlots = 27;
+inline constexpr std::size_t kSlots = 28;
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {

@@ -11,6 +11,7 @@ namespace {
 #include "vulkan/adaptive_cut.inc"
 #include "vulkan/adaptive_measure.inc"
 #include "vulkan/adaptive_raster.inc"
+#include "vulkan/adaptive_raster_patterned.inc"
 #include "vulkan/adaptive_search.inc"
 #include "vulkan/adaptive_sizes.inc"
 #include "vulkan/adaptive_tiles.inc"
@@ -53,6 +54,7 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveBinWide: return kAdaptiveBinWideCode;
     case Shader::AdaptiveTiles: return kAdaptiveTilesCode;
     case Shader::AdaptiveRaster: return kAdaptiveRasterCode;
+    case Shader::AdaptiveRasterPatterned: return kAdaptiveRasterPatternedCode;
   }
   return {};
 }

@@ -31,8 +31,9 @@ enum class Shader : std::uint8_t {
   AdaptiveBinWide,
   AdaptiveTiles,
   AdaptiveRaster,
+  AdaptiveRasterPatterned,
 };
-inline constexpr std::size_t kShaders = 22;
+inline constexpr std::size_t kShaders = 23;
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);
 

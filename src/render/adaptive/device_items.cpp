@@ -10,9 +10,11 @@
 #include "base/clock.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/adaptive/device_patterns.h"
 #include "render/adaptive/kept_paths.h"
 #include "render/device/device_frame.h"
 #include "render/planning/adaptive_passes.h"
+#include "render/stop_patterns/stop_transmittances.h"
 
 namespace contrejour::inline internal::adaptive {
 namespace {
@@ -38,6 +40,7 @@ struct FrameItems {
   std::shared_ptr<const DevicePaths> paths;  // by ghost, then by wavelength
   std::vector<DeviceStart> starts;  // by light
   std::vector<LayerItems> layers;
+  std::vector<std::shared_ptr<const StopPattern>> patterns;
 };
 
 std::vector<double> wavelengths_of(const FramePlan& plan) {
@@ -62,14 +65,34 @@ DeviceStart start_of(const LensSteps& steps, const Ghost& any, const PlannedLigh
   return {path.start(), size > 0.0 ? across * (1.0 / size) : Vec2{1.0, 0.0}};
 }
 
+// Adds the stop patterns of a ghost and a light; returns the first one's number, kNone without ringing. A wavelength
+// whose fringes are not visible has those of the next one, slightly wider.
+std::uint32_t add_patterns(const StopTransmittances& stops, const Ghost& ghost, const PlannedLight& light,
+                           std::span<const PlannedPass> passes, FrameItems& to) {
+  std::vector<std::shared_ptr<const StopPattern>> patterns;
+  for (const PlannedPass& pass : passes) patterns.push_back(stops.pattern_of(ghost, pass.lambda_nm, light.source));
+  const auto any = std::find_if(patterns.rbegin(), patterns.rend(), [](const auto& one) { return one != nullptr; });
+  if (any == patterns.rend()) return DevicePatterns::kNone;
+  auto next = *any;
+  for (auto at = patterns.rbegin(); at != patterns.rend(); ++at) {
+    if (*at == nullptr) *at = next;
+    next = *at;
+  }
+  const auto first = static_cast<std::uint32_t>(to.patterns.size());
+  to.patterns.insert(to.patterns.end(), patterns.begin(), patterns.end());
+  return first;
+}
+
 // The items of a ghost and a light, at its wavelengths.
-void add_group(const FramePlan& plan, GhostOfLight pair, std::span<const PlannedPass> passes, FrameItems& to) {
+void add_group(const FramePlan& plan, const StopTransmittances& stops, GhostOfLight pair,
+               std::span<const PlannedPass> passes, FrameItems& to) {
   const AppliedAdjustment& adjustment = plan.adjustments[pair.ghost];
   const EntranceWindow& window = to.windows[pair.light];
   LayerItems& layer = to.layers[plan.layer_of(pair.ghost, pair.light)];
   const auto first = static_cast<std::uint32_t>(layer.items.size());
   const auto count = static_cast<std::uint32_t>(passes.size());
   layer.groups.push_back({first, count, first + count / 2});
+  std::uint32_t pattern = add_patterns(stops, plan.ghosts[pair.ghost], plan.lights[pair.light], passes, to);
   for (const PlannedPass& pass : passes) {
     const auto tinted = [&](const Rgb& gain) {
       const Rgb out = adjustment.tinted(gain);
@@ -85,11 +108,13 @@ void add_group(const FramePlan& plan, GhostOfLight pair, std::span<const Planned
          .gain_by_x = tinted(pass.slopes.by_x),
          .gain_by_y = tinted(pass.slopes.by_y),
          .middle_mm = pass.slopes.middle_mm - window.min_mm,
-         .shift_mm = adjustment.shift_mm});
+         .shift_mm = adjustment.shift_mm,
+         .pattern = pattern});
+    if (pattern != DevicePatterns::kNone) ++pattern;
   }
 }
 
-FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan) {
+FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const StopTransmittances& stops) {
   FrameItems out;
   out.layers.resize(layer_count(plan));
   if (plan.ghosts.empty() || plan.lights.empty()) return out;
@@ -104,7 +129,7 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan) {
     out.starts.push_back(
         start_of(steps.at(out.lambda_nm.front()), plan.ghosts.front(), plan.lights[k], out.windows[k]));
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
-    if (!passes.empty()) add_group(plan, {g, k}, passes, out);
+    if (!passes.empty()) add_group(plan, stops, {g, k}, passes, out);
   });
   return out;
 }
@@ -113,7 +138,6 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan) {
 
 std::string device_lacks(const PlannedFrame& planned) {
   if (planned.lens.iris.field) return "a picture as the iris is";
-  if (planned.settings.ringing.mode != RingingMode::None) return "ringing is";
   if (planned.plan.dirt) return "dirt is";
   // The measures of streaks are too coarse: an anamorphic lens in a small frame reaches 44 dB, and 50 are asked for.
   if (!planned.lens.has_axial_symmetry()) return "a lens without axial symmetry is";
@@ -126,20 +150,24 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
   const Frame& frame = planned.settings.frame;
   const auto plan = with_adaptive_passes(planned.plan, planned.lens, frame, context, spread_px_for(options.error));
   if (!plan) return interrupted();
-  const FrameItems all = list_items(planned, *plan);
+  StopTransmittances stops(planned.lens, planned.settings, plan->dirt, planned.cache);
+  if (!stops.prepare(*plan, context)) return interrupted();
+  const FrameItems all = list_items(planned, *plan, stops);
   std::vector<bool> has_light;
   for (const LayerItems& layer : all.layers) has_light.push_back(!layer.items.empty());
   RenderStatistics statistics;
   statistics.method = "adaptive";
   const IrisShape iris(planned.lens.iris);
+  const auto patterns =
+      all.patterns.empty() ? nullptr : planned.cache.section<KeptPatterns>({})->get(all.patterns, iris);
   return draw_layers(
       *kept.device, {*plan, frame, planned.cache, std::move(statistics), ms_since(start)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
-        return kept.device->draw(
-            AdaptiveJob{frame, iris, all.paths, all.starts, items, groups, error, plan->min_peak, kept.reads_pictures},
-            image, drawing);
+        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, all.starts, items, groups, error,
+                                             plan->min_peak, kept.reads_pictures},
+                                 image, drawing);
       },
       context);
 }

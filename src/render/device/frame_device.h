@@ -53,6 +53,31 @@ struct DevicePaths {
   std::vector<PacketPath> paths;  // their starts do not count
 };
 
+// What takes the place of the sharp iris in a ghost at one wavelength, at the last crossing of the stop: StopPattern.
+// Units: stop radii.
+struct DevicePattern {
+  std::uint32_t table = 0;  // number of its table
+  std::uint32_t side = 0;  // samples a side of a pattern of the whole iris; 0: fringes of its edges
+  float outer_radius = 1.0F;  // no light passes farther from the axis
+  float scale = 1.0F;  // of edges: positions in the profile a stop radius; of a whole pattern: its extent
+  float level_from = 0.0F;  // of edges: the position from which on the profile counts as 1
+  float roughness =
+      0.0F;  // of edges: the profile's squared slope, integrated; of a whole pattern: its mean over the iris
+  float difference = 0.0F;  // the squared difference from the sharp iris, as a fraction of the iris's area
+};
+
+// The patterns of a lens's ghosts, and their tables. The profile of an edge is pairs: the value at a position, and its
+// integral from the dark end less that of a sharp edge. A pattern of the whole iris is an image pyramid, finest level
+// first, rows from the top. A device keeps what it was given last, as DevicePaths.
+struct DevicePatterns {
+  static constexpr double kFirstPosition = -6.0, kLastPosition = 32.0, kPositionsAUnit = 128.0;  // of profiles
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  std::vector<std::shared_ptr<const void>> owners;  // of what the patterns were made from
+  std::vector<DevicePattern> patterns;
+  std::vector<std::vector<float>> tables;
+};
+
 // A light: its ray through the lower corner of its window of the entrance plane, and the direction of the plane that
 // holds the light and the lens's axis, a unit vector.
 struct DeviceStart {
@@ -69,6 +94,7 @@ struct DeviceItem {
   std::array<float, 3> gain_by_x{}, gain_by_y{};  // its change by mm of the entrance plane
   Vec2 middle_mm{};  // from the window's lower corner
   Vec2 shift_mm{};  // of the ghost, on the sensor
+  std::uint32_t pattern = DevicePatterns::kNone;  // number in the job; none: the iris is sharp
 };
 
 // The wavelengths of one ghost and light: items that follow each other, by their numbers.
@@ -82,6 +108,7 @@ struct AdaptiveJob {
   const Frame& frame;
   const IrisShape& iris;  // not a picture
   std::shared_ptr<const DevicePaths> paths;
+  std::shared_ptr<const DevicePatterns> patterns;  // null: the iris is sharp in all items
   std::span<const DeviceStart> starts;
   std::span<const DeviceItem> items;
   std::span<const DeviceGroup> groups;

@@ -15,6 +15,11 @@ bvec4 side_is_straight;  // the side below, above, on the left, on the right
 const ivec2 kAround[12] = ivec2[12](ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0), ivec2(0, 0), ivec2(1, 0), ivec2(2, 0),
                                     ivec2(-1, 1), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(0, 2), ivec2(1, 2));
 
+bool is_uniform(uint pattern, uvec4 k) {
+  return region_of_rays(pattern, around[k.x], around[k.y], around[k.z], around[k.w], crossings_of(item)) ==
+         REGION_UNIFORM;
+}
+
 void find_around() {
   ivec2 cell = ivec2(own % side, own / side);
   for (int k = 0; k < 12; ++k) {
@@ -27,6 +32,13 @@ void find_around() {
   for (int k = 0; k < 12; ++k) open[k] = exists[k] && passes(around[k]);
   side_is_straight = bvec4(open[0] && open[1] && open[3] && open[4], open[7] && open[8] && open[10] && open[11],
                            open[2] && open[6] && open[3] && open[7], open[4] && open[8] && open[5] && open[9]);
+  uint pattern = pattern_of(item);
+  if (pattern == 0u) return;
+  // Cells where the stop pattern varies are drawn in parts, too.
+  side_is_straight = bvec4(side_is_straight.x && is_uniform(pattern, uvec4(0u, 1u, 4u, 3u)),
+                           side_is_straight.y && is_uniform(pattern, uvec4(7u, 8u, 11u, 10u)),
+                           side_is_straight.z && is_uniform(pattern, uvec4(2u, 3u, 7u, 6u)),
+                           side_is_straight.w && is_uniform(pattern, uvec4(4u, 5u, 9u, 8u)));
 }
 
 float weights[12];

@@ -10,6 +10,7 @@ layout(local_size_x = 256) in;
 #define FEWEST_CELLS 8u
 #define MOST_CELLS 1024u
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
+#define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
 #define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
 
 shared float numbers[256];
@@ -98,7 +99,7 @@ void set_gains(uint item, vec3 gain, mat2x3 slopes) {
 }
 
 // Draws items by the middle one of their group where that is within the error and keeps the colours.
-void merge(uint group, float allowed_by_root) {
+void merge(uint group, float allowed_by_root, float allowed_sharp) {
   uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
   vec3 gain = item_gain(middle);
   mat2x3 slopes = item_gain_slopes(middle);
@@ -118,6 +119,9 @@ void merge(uint group, float allowed_by_root) {
     states[word + STATE_CELLS] = uintBitsToFloat(cells);
     states[word + STATE_PARTS] = uintBitsToFloat(cells_and_parts.y);
     set_gains(item, item_gain(item), item_gain_slopes(item));
+    uint pattern = item_pattern(item);
+    if (pattern != 0u && state(item, STATE_SHARP_ERROR) <= allowed_sharp) pattern = 0u;
+    states[word + STATE_PATTERN] = uintBitsToFloat(pattern);
   }
   set_gains(middle, gain, slopes);
 }
@@ -157,7 +161,8 @@ void main() {
   for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(squared_error_of(item));
   float all_roots = sum_of(roots);
   float allowed_by_root = all_roots > 0.0 ? p.budget * peak * peak / all_roots : 0.0;
-  for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root);
+  float allowed_sharp = SHARP_SHARE * p.budget * peak * peak / float(p.item_count);
+  for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root, allowed_sharp);
   memoryBarrierBuffer();
   barrier();
   uint blocks = number_blocks();

@@ -50,7 +50,7 @@ void list_cut(uint parts) {
 void main() {
   if (!find_ray() || own % side + 1u == side || own / side + 1u == side) return;
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
-  int how = cell_state(v, crossings_of(item));
+  int how = patterned_state(v, crossings_of(item), pattern_of(item));
   if (how == STATE_CLOSED) return;
   bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
   if (!any_failed && outside_frame(v)) return;

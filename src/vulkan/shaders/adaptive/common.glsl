@@ -25,6 +25,7 @@ layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };  
 layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
 
 layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
+layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
 layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
 
 layout(push_constant) uniform Parameters {
@@ -86,6 +87,8 @@ mat2x3 item_gain_slopes(uint item) {
 vec2 item_middle(uint item) { return vec2(item_float(item, 22u), item_float(item, 23u)); }
 vec2 item_window(uint item) { return vec2(item_float(item, 9u), item_float(item, 10u)); }  // its size, mm
 
+uint item_pattern(uint item) { return item_word(item, 14u); }  // from 1 on; 0: the iris is sharp
+
 // Words of a group: its first item, their number, the item in whose wavelength the pupil is searched.
 uint group_word(uint group, uint k) { return groups[GROUP_WORDS * group + k]; }
 
@@ -99,7 +102,8 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 // An item's state: error of a grid of COARSE_CELLS a side between its edges, of the edges, and of drawing it in another
 // one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the
 // other, relative to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the
-// items that are drawn by it.
+// items that are drawn by it; the squared error of drawing its stop pattern as the sharp iris, and the pattern that is
+// drawn.
 #define STATE_ERROR 0u
 #define STATE_MERGED_ERROR 1u
 #define STATE_FLUX 2u
@@ -109,11 +113,14 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 #define STATE_EDGE_ERROR 8u
 #define STATE_EXTENT 9u  // of the image, pixels
 #define STATE_PARTS 10u
+#define STATE_SHARP_ERROR 11u
+#define STATE_PATTERN 12u
 #define STATE_SLOPES 16u  // of the gains: by x, then by y
 #define COARSE_CELLS 15u
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
 float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
+uint pattern_of(uint item) { return floatBitsToUint(state(item, STATE_PATTERN)); }
 // The gains at a place in the window, mm.
 vec3 state_gain(uint item, vec2 at) {
   vec2 by = at - item_middle(item);

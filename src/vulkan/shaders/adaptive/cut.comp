@@ -16,15 +16,73 @@ layout(local_size_x = 64) in;
 vec3 transmissions;
 vec2 pixels[3];
 
+// The stop points of the corners at the last crossing, where the item has a stop pattern.
+uint pattern = 0u;
+vec2 last_stops[3];
+#define LARGE_PX 1.0           // smaller triangles have the mean transmittance of their part of the stop
+#define LARGE_OF_WIDE_PX 2.0   // the same where a pixel is WIDE of the stop
+#define WIDE 0.5               // stop radii
+#define THIN 1.0               // px
+
+vec2 middle_of_part;  // in (u, v)
+float part_of_triangle;
+
+void find_middle(float fraction) {
+  part_of_triangle = fraction;
+  middle_of_part = vec2(0.0);
+  for (int k = 0; k < corner_count; ++k) middle_of_part += polygon[k];
+  middle_of_part /= float(corner_count);
+}
+
+// The mean transmittance over the clipped triangle, as over the parallelogram of about the same variances.
+float mean_transmittance() {
+  vec2 u = last_stops[1] - last_stops[0], v = last_stops[2] - last_stops[0];
+  vec2 at = last_stops[0] + u * middle_of_part.x + v * middle_of_part.y;
+  float size = sqrt(part_of_triangle);
+  return transmittance_at(pattern, at, 0.70710678 * size * (u - v), 0.40824829 * size * (u + v), ALL_EDGES);
+}
+
+// Sets the linear map from pixels to stop points of the triangle's corners. A thin triangle counts as thicker, so that
+// the map does not become steep beside it. Returns false where the triangle is too small to have one.
+bool set_pattern_map() {
+  vec2 a = pixels[1] - pixels[0], b = pixels[2] - pixels[0];
+  vec2 u = last_stops[1] - last_stops[0], v = last_stops[2] - last_stops[0];
+  float area = 0.5 * abs(cross2(a, b));
+  float width = sqrt(0.5 * abs(cross2(u, v)) / max(area, 1e-12));
+  if (area < (width > WIDE ? LARGE_OF_WIDE_PX : LARGE_PX)) return false;
+  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * area / longest;
+  float extra = thickness < THIN ? THIN * THIN - thickness * thickness : 0.0;
+  float aa = dot(a, a) + extra, bb = dot(b, b) + extra, ab = dot(a, b), scale = 1.0 / (aa * bb - ab * ab);
+  vec2 to_u = (a * bb - b * ab) * scale, to_v = (b * aa - a * ab) * scale;
+  vec2 middle = (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  vec2 at = (last_stops[0] + last_stops[1] + last_stops[2]) * (1.0 / 3.0);
+  pattern_map[0] = u * to_u.x + v * to_v.x;
+  pattern_map[1] = u * to_u.y + v * to_v.y;
+  pattern_map[2] = at - pattern_map[0] * middle.x - pattern_map[1] * middle.y;
+  float radius = 0.0;
+  for (int k = 0; k < 3; ++k) radius = max(radius, length(last_stops[k] - at));
+  radius += length(pattern_map[0]) + length(pattern_map[1]);  // pixels reach beyond the triangle
+  pattern_map[3] = vec2(uintBitsToFloat(active_edges(pattern, at, radius)), 0.0);
+  return true;
+}
+
 void list_part(float flux, float fraction, vec2 gradient) {
   float area = abs(0.5 * cross2(pixels[1] - pixels[0], pixels[2] - pixels[0]));
-  if (in_one_pixel()) {
+  bool is_point = in_one_pixel();
+  vec2 from, to;
+  farthest_corners(from, to);
+  bool is_line = area < SLIVER * dot(to - from, to - from);
+  if (pattern != 0u) {
+    if (!is_point && !is_line && set_pattern_map())
+      record_pattern = floatBitsToUint(pattern_map[3].x) == 0u ? 0u : pattern;
+    else
+      flux *= mean_transmittance();
+  }
+  if (is_point) {
     list_point(polygon[0], flux * fraction);
     return;
   }
-  vec2 from, to;
-  farthest_corners(from, to);
-  if (area < SLIVER * dot(to - from, to - from)) {
+  if (is_line) {
     list_line(from, to, flux * fraction);
     return;
   }
@@ -33,9 +91,13 @@ void list_part(float flux, float fraction, vec2 gradient) {
 }
 
 void list_triangle(vec2 gradient) {
-  clip_triangle(crossings_of(item));
+  clip_triangle(pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
   float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
+  if (pattern != 0u) {
+    for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
+    find_middle(fraction);
+  }
   for (int k = 0; k < corner_count; ++k)
     polygon[k] = pixels[0] + (pixels[1] - pixels[0]) * polygon[k].x + (pixels[2] - pixels[0]) * polygon[k].y;
   list_part(triangle_weight * (transmissions.x + transmissions.y + transmissions.z) / 3.0, fraction, gradient);
@@ -81,6 +143,7 @@ void main() {
   first_ray = 64u * offsets[item];
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
   set_cell(v);
+  pattern = pattern_of(item);
   bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   float area = any_failed ? 0.0 : 0.5 * cross2(rays[v.z].xy - rays[v.x].xy, rays[v.w].xy - rays[v.y].xy);

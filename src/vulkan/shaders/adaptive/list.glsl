@@ -2,8 +2,13 @@
 // Lists what is to be drawn: polygons of three corners and more, whose shoelace area is positive, lines of two, points of
 // one. Words of a record, in
 // `large`: the density at a point, its gradient, the point (both 0 for lines and points, whose value is their flux, for
-// a line by length); the gains; the first corner and their number; the base; the bounds, first and last column and row.
+// a line by length); the gains; the first corner and their number, with the stop pattern's in the high bits; the base;
+// the bounds, first and last column and row.
+// A polygon with a stop pattern has four more corners: how far the stop point moves with a pixel across and down, the
+// stop point at the base's upper corner, and the bits of the edges that have fringes in it.
 #define RECORD_WORDS 16u
+#define PATTERN_SHIFT 8u
+#define MAP_CORNERS 4u
 
 float triangle_weight;  // flux of half a cell of transmission 1
 vec3 gain;
@@ -20,11 +25,15 @@ bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
   return last.x >= first.x && last.y >= first.y;
 }
 
+uint record_pattern = 0u;  // of the polygon to be listed; 0: none
+vec2 pattern_map[MAP_CORNERS];
+
 // Returns the first corner's place; corners are written by the caller. OVERFLOW: -1.
 int begin_record(Density density, uint count, ivec4 box) {
   uint at = atomicAdd(counters[COUNT_POLYGONS], 1u);
-  uint first = atomicAdd(counters[COUNT_CORNERS], count);
-  if (at >= p.large_capacity || first + count > p.corner_capacity) {
+  uint corners = record_pattern == 0u ? count : count + MAP_CORNERS;
+  uint first = atomicAdd(counters[COUNT_CORNERS], corners);
+  if (at >= p.large_capacity || first + corners > p.corner_capacity) {
     atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_POLYGONS);
     return -1;
   }
@@ -36,11 +45,12 @@ int begin_record(Density density, uint count, ivec4 box) {
   large[word + 4u] = floatBitsToUint(density.point.y);
   for (uint c = 0u; c < 3u; ++c) large[word + 5u + c] = floatBitsToUint(gain[c]);
   large[word + 8u] = first;
-  large[word + 9u] = count;
+  large[word + 9u] = count | (record_pattern << PATTERN_SHIFT);
   large[word + 10u] = uint(base.x);
   large[word + 11u] = uint(base.y);
   box += base.xyxy;
   for (uint k = 0u; k < 4u; ++k) large[word + 12u + k] = uint(box[k]);
+  for (uint k = count; k < corners; ++k) large_corners[first + k] = pattern_map[k - count];
   return int(first);
 }
 

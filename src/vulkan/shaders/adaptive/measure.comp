@@ -7,10 +7,12 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "item_path.glsl"
 #include "../iris.glsl"
+#include "pattern.glsl"
 
 #define BOUND_LARGEST_DENSITY_CHANGE 2.0
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
+#define LARGEST_ROUGHNESS 0.5             // the mean squared slope by pixel of a pattern
 #define MEAN_SQUARED_ARCH (8.0 / 15.0)    // of a parabola of height 1 over its chord
 
 // Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at
@@ -19,6 +21,7 @@ shared vec2 places[256];
 shared float transmissions[256];
 shared float rims[256];
 shared vec2 stops[256];
+shared vec2 last_stops[256];  // of items with a stop pattern: where the ray crosses the stop last
 shared float densities[256];  // of cells, with the sign of their area; 0: none
 shared vec4 sums_of[256];
 shared uint histogram[BINS];
@@ -43,9 +46,12 @@ void largest() {
 }
 
 uint crossings_of_group = 0u;
+uint pattern = 0u;          // of the item
+uint sharp_crossings = 0u;  // where the iris is sharp
 
 struct Cell {
   bool is_drawn;
+  bool has_edge;
   float area_px, length_px, open;  // length: of the longer side, about; open: the part that is open
   float flux, density;  // if it were open, without gain; density: by pixel
 };
@@ -58,13 +64,19 @@ float open_part(vec4 at) {
   return clamp(0.5 - mean / max(abs(slope.x) + abs(slope.y), 1e-12), 0.0, 1.0);
 }
 
-float iris_distance_at(uint k) { return crossings_of_group > 0u ? iris_distance(stops[k]) : -1.0; }
+float iris_distance_at(uint k) { return sharp_crossings > 0u ? iris_distance(stops[k]) : -1.0; }
 
 // As blocked().
 float blocked_at(uint k) { return max(rims[k] - 1.0, iris_distance_at(k)); }
 
+// The mean transmittance of the item's stop pattern over a cell.
+float transmitted_by(uvec4 v) {
+  vec2 a = last_stops[v.x], b = last_stops[v.y], c = last_stops[v.z], d = last_stops[v.w];
+  return transmittance_at(pattern, 0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b), ALL_EDGES);
+}
+
 Cell cell_at(uint k, float flux_a_transmission) {
-  Cell cell = Cell(false, 0.0, 0.0, 0.0, 0.0, 0.0);
+  Cell cell = Cell(false, false, 0.0, 0.0, 0.0, 0.0, 0.0);
   if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return cell;
   uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
   float transmission = 0.0;
@@ -73,6 +85,8 @@ Cell cell_at(uint k, float flux_a_transmission) {
     transmission += 0.25 * transmissions[v[j]];
   }
   cell.open = open_part(vec4(blocked_at(v.x), blocked_at(v.y), blocked_at(v.z), blocked_at(v.w)));
+  cell.has_edge = cell.open < 1.0;
+  if (pattern != 0u) cell.open *= transmitted_by(v);
   cell.area_px = 0.5 * cross2(places[v.z] - places[v.x], places[v.w] - places[v.y]);
   cell.length_px = 0.7 * max(length(places[v.z] - places[v.x]), length(places[v.w] - places[v.y]));
   cell.flux = transmission * flux_a_transmission;
@@ -141,6 +155,38 @@ float squared_sag_of_bounds(uint k) {
   return squared;
 }
 
+// The mean squared slope of a stop pattern by pixel, where its light is 1. Fringes finer than a pixel do not show:
+// along an edge they begin a pixel's part of a fringe unit from it.
+float roughness_px(Cell cell) {
+  uint k = gl_LocalInvocationIndex;
+  float stop_area = abs(cross2(last_stops[k + 17u] - last_stops[k], last_stops[k + 16u] - last_stops[k + 1u]));
+  float across = sqrt(min(0.5 * stop_area / max(abs(cell.area_px), 1.0), 1.0));  // a pixel, in stop radii
+  float rough = pattern_roughness(pattern);
+  if (pattern_side(pattern) != 0u) return min(rough * across * across, LARGEST_ROUGHNESS);
+  float unit = pattern_scale(pattern) * across;  // a pixel, in fringe units
+  return 2.0 * across * min(rough * unit, 1.0 + unit) * min(cell.open, 1.0);
+}
+
+// The squared displacement, in pixels, of what a stop pattern shows by the bends of the maps to the frame and the stop.
+float squared_bend_of_map(uint k) {
+  uint inside = ray_inside();
+  if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return 1.0;
+  vec2 px = places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u];
+  vec2 py = places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u];
+  vec2 sx = last_stops[k + 1u] - last_stops[k] + last_stops[k + 17u] - last_stops[k + 16u];
+  vec2 sy = last_stops[k + 16u] - last_stops[k] + last_stops[k + 17u] - last_stops[k + 1u];
+  float det = cross2(sx, sy), sum = 0.0;
+  if (det == 0.0) return 1.0;
+  for (uint axis = 0u; axis < 2u; ++axis) {
+    uint by = axis == 0u ? 1u : 16u;
+    vec2 of_stop = last_stops[inside - by] - 2.0 * last_stops[inside] + last_stops[inside + by];
+    vec2 of_pixel = places[inside - by] - 2.0 * places[inside] + places[inside + by];
+    vec2 off = (px * cross2(of_stop, sy) + py * cross2(sx, of_stop)) / det - of_pixel;
+    sum += dot(off, off) / 64.0;
+  }
+  return min(sum, 1.0);
+}
+
 // The squared part of a cell's density by which a linear function is off.
 float squared_bend(uint k) {
   float sum = 0.0;
@@ -197,13 +243,14 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
   vec2 at = box.xy + box.zw * vec2(gl_LocalInvocationID.xy) / float(COARSE_CELLS);
   vec4 ray = trace_ray(at.x, at.y);
   vec2 farthest = stop_points[0];
-  for (uint c = 1u; c < crossings_of_group; ++c)
+  for (uint c = 1u; c < sharp_crossings; ++c)
     if (iris_distance(stop_points[c]) > iris_distance(farthest)) farthest = stop_points[c];
   places[k] = ray.xy;
   if (is_middle) middle_place = ray.xy;
   transmissions[k] = failed(ray) ? -1.0 : ray.z;
   rims[k] = ray.w;
   stops[k] = farthest;
+  if (pattern != 0u) last_stops[k] = stop_points[sharp_crossings];
   barrier();
 }
 
@@ -213,9 +260,10 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
   vec2 moved = places[k] - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
-  bool is_edge = cell.open < 1.0;
   float inside = area * cell.open * squared_bend(k);
-  float merged = is_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
+  float merged = cell.has_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
+  if (pattern != 0u && cell.is_drawn)
+    merged += area * (roughness_px(cell) * min(moved_squared, 1.0) + cell.open * pattern_difference(pattern));
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
                               : inside_frame * vec4(value * value * inside, value * value * merged,
                                                     cell.flux * cell.open, area * cell.open);
@@ -225,13 +273,20 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
   return all;
 }
 
-// The squared error of straight edges, in values of the item, within the frame.
-float sum_edge_errors(Cell cell, float value, float inside_frame) {
-  bool is_edge = cell.is_drawn && cell.open < 1.0;
+// The squared errors of straight edges, and of drawing a stop pattern as the sharp iris, in values of the item, within
+// the frame.
+vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
+  bool is_edge = cell.is_drawn && cell.has_edge;
   float edge = is_edge ? cell.length_px * (squared_sag() + squared_sag_of_bounds(gl_LocalInvocationIndex)) : 0.0;
-  sums_of[gl_LocalInvocationIndex] = vec4(inside_frame * value * value * edge, 0.0, 0.0, 0.0);
+  float sharp = 0.0;
+  if (pattern != 0u && cell.is_drawn) {
+    float area = max(abs(cell.area_px), 1.0);
+    edge += area * roughness_px(cell) * squared_bend_of_map(gl_LocalInvocationIndex);
+    sharp = area * cell.open * pattern_difference(pattern);
+  }
+  sums_of[gl_LocalInvocationIndex] = inside_frame * value * value * vec4(edge, sharp, 0.0, 0.0);
   sum_up();
-  float all = sums_of[0].x;
+  vec2 all = sums_of[0].xy;
   barrier();
   return all;
 }
@@ -268,6 +323,8 @@ float find_extent(Cell cell) {
 
 void measure(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;
+  pattern = item_pattern(item);
+  sharp_crossings = crossings_of_group - (pattern != 0u ? 1u : 0u);
   trace_corner(item, is_middle, box);
   float cell_mm2 = box.z * box.w / float(COARSE_CELLS * COARSE_CELLS);
   Cell cell = cell_at(k, cell_mm2 * item_irradiance(item));
@@ -279,13 +336,14 @@ void measure(uint item, bool is_middle, vec4 box) {
   float inside_frame = cell.is_drawn ? part_in_frame(k) : 0.0;
   if (cell.is_drawn) add_to_histogram(abs(cell.area_px) * cell.open * inside_frame, cell, gain);
   vec4 all = sum_errors(cell, value, inside_frame);
-  float edges = sum_edge_errors(cell, value, inside_frame);
+  vec2 edges = sum_edge_errors(cell, value, inside_frame);
   vec2 other = compare_with_middle(cell, value, inside_frame);
   float extent = find_extent(cell);
   if (k != 0u) return;
   uint word = STATE_WORDS * item;
   states[word + STATE_ERROR] = all.x;
-  states[word + STATE_EDGE_ERROR] = edges;
+  states[word + STATE_EDGE_ERROR] = edges.x;
+  states[word + STATE_SHARP_ERROR] = edges.y;
   states[word + STATE_MERGED_ERROR] = all.y + other.y;
   states[word + STATE_FLUX] = all.z;
   states[word + STATE_DISPLACEMENT] = other.x / max(all.w, 1e-30);

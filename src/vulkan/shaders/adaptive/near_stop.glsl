@@ -12,8 +12,8 @@ bool holds_origin(vec2 a, vec2 b, vec2 c) {
   return all(greaterThanEqual(sides, vec3(0.0))) || all(lessThanEqual(sides, vec3(0.0)));
 }
 
-// The corners in order, in stop radii. The stop counts as its circumscribed circle.
-bool near_stop(vec2 q[4]) {
+// The corners in order, in stop radii. The stop counts as its circumscribed circle, or the one of its pattern.
+bool near_stop(vec2 q[4], float radius) {
   if (holds_origin(q[0], q[1], q[2]) || holds_origin(q[0], q[2], q[3])) return true;
   float nearest = FAILED, longest = 0.0;
   for (int k = 0; k < 4; ++k) {
@@ -22,5 +22,5 @@ bool near_stop(vec2 q[4]) {
   }
   // The map is not linear: the corners show its mixed term, and others are about as large.
   float bend = length(q[0] - q[1] + q[2] - q[3]) + 0.1 * longest;
-  return nearest <= 1.0 + bend;
+  return nearest <= radius + bend;
 }

@@ -8,8 +8,18 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "record.glsl"
 #include "../coverage.glsl"
 #include "../sums.glsl"
+#ifdef PATTERNS
+#include "../iris.glsl"
+#include "pattern.glsl"
+#endif
 
+// Edges are taken in fours rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so
+// that the last polygons of crowded tiles would be missing.
+#ifdef PATTERNS
+#define SMALL_PX 64  // the pattern is dearer than the sums
+#else
 #define SMALL_PX 12
+#endif
 #define TILE_WORDS 1536u  // low and high words by pixel and channel
 
 shared uint tile_sums[TILE_WORDS];
@@ -73,22 +83,50 @@ float part_in_pixel(vec2 from, vec2 to) {
   return max(last - first, 0.0);
 }
 
+// Adds the area to the right of the edge that ends at a corner; past the last corner: of none, which is 0.
+void add_edge(uint first, uint count, uint k, vec2 pixel, inout vec2 before, inout float covered) {
+  vec2 here = large_corners[first + min(k, count - 1u)] - pixel;
+  covered += area_right_of(before, here);
+  before = here;
+}
+
 // The part of a pixel that a polygon covers, exactly.
 float covered_part(uint first, uint count, vec2 pixel) {
   float covered = 0.0;
   vec2 before = large_corners[first + count - 1u] - pixel;
-  for (uint k = 0u; k < count; ++k) {
-    vec2 here = large_corners[first + k] - pixel;
-    covered += area_right_of(before, here);
-    before = here;
+  for (uint k = 0u; k < count; k += 4u) {
+    add_edge(first, count, k, pixel, before, covered);
+    add_edge(first, count, k + 1u, pixel, before, covered);
+    add_edge(first, count, k + 2u, pixel, before, covered);
+    add_edge(first, count, k + 3u, pixel, before, covered);
   }
   return max(-covered, 0.0);
 }
 
+// Only frames with stop patterns have polygons with them, whose numbers are in the high bits.
+#ifdef PATTERNS
+uint corners_in(uint word) { return word & CORNERS_MASK; }
+
+shared uint patterns_of_polygons[32];
+shared vec2 maps[96];  // of the pixels of the tile
+shared uint edge_bits_of_polygons[32];
+
+float transmittance_of(uint polygon, vec2 corner) {
+  uint word = RECORD_WORDS * polygon, pattern = large[word + 9u] >> PATTERN_SHIFT;
+  if (pattern == 0u) return 1.0;
+  uint map = large[word + 8u] + corners_in(large[word + 9u]);
+  vec2 x = large_corners[map], y = large_corners[map + 1u], middle = corner + 0.5;
+  return transmittance_at(pattern, large_corners[map + 2u] + x * middle.x + y * middle.y, x, y,
+                          floatBitsToUint(large_corners[map + 3u].x));
+}
+#else
+uint corners_in(uint word) { return word; }
+#endif
+
 // The polygon's value in a pixel.
 float value_at(uint polygon, ivec2 pixel) {
   uint word = RECORD_WORDS * polygon;
-  uint first = large[word + 8u], count = large[word + 9u];
+  uint first = large[word + 8u], count = corners_in(large[word + 9u]);
   vec2 corner = vec2(pixel - ivec2(int(large[word + 10u]), int(large[word + 11u])));
   float value = record_float(polygon, 0u);
   if (count == 1u) return value;
@@ -97,6 +135,9 @@ float value_at(uint polygon, ivec2 pixel) {
   if (covered == 0.0) return 0.0;
   vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
   vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
+#ifdef PATTERNS
+  covered *= transmittance_of(polygon, corner);
+#endif
   return covered * (value + dot(gradient, corner + 0.5 - point));
 }
 
@@ -122,10 +163,11 @@ void prepare(uint from, uint count) {
   uint t = gl_LocalInvocationIndex, j = t / 8u, e = t % 8u;
   if (from + j >= count) return;
   uint polygon = others[from + j], word = RECORD_WORDS * polygon;
-  uint first = large[word + 8u], corners = large[word + 9u];
+  uint first = large[word + 8u], corners = corners_in(large[word + 9u]);
   ivec2 tile_low = ivec2(gl_WorkGroupID.xy) * TILE_SIDE;
   vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
   bool is_convex = corners >= 3u && corners <= 8u;
+  if (e >= corners) edges[t] = vec4(0.0, 0.0, 1.0, 0.0);  // every pixel is inside
   if (is_convex && e < corners) {
     vec2 a = large_corners[first + e] - origin, b = large_corners[first + (e + 1u == corners ? 0u : e + 1u)] - origin;
     vec2 along = b - a;
@@ -139,6 +181,15 @@ void prepare(uint from, uint count) {
   vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
   vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
   planes[j] = vec3(gradient, record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point));
+#ifdef PATTERNS
+  patterns_of_polygons[j] = large[word + 9u] >> PATTERN_SHIFT;
+  if (patterns_of_polygons[j] == 0u) return;
+  vec2 x = large_corners[first + corners], y = large_corners[first + corners + 1u], middle = origin + 0.5;
+  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first + corners + 3u].x);
+  maps[3u * j] = x;
+  maps[3u * j + 1u] = y;
+  maps[3u * j + 2u] = large_corners[first + corners + 2u] + x * middle.x + y * middle.y;
+#endif
 }
 
 // The part of a pixel on the positive side of an edge that crosses it.
@@ -149,6 +200,28 @@ float half_plane(vec2 slope, float at_middle) {
   return at_middle >= 0.0 ? part : 1.0 - part;
 }
 
+// How a pixel lies to the edges of a polygon: outside one, or across some, and the last of these.
+struct Crossing {
+  bool is_outside;
+  uint count;
+  vec3 edge;
+};
+
+void cross_edge(vec4 edge, vec2 place, inout Crossing crossing) {
+  float side = dot(edge.xy, place) + edge.z;
+  if (side <= -edge.w) crossing.is_outside = true;
+  if (side >= edge.w) return;
+  ++crossing.count;
+  crossing.edge = vec3(edge.xy, side);
+}
+
+void cross_four_edges(uint first, vec2 place, inout Crossing crossing) {
+  cross_edge(edges[first], place, crossing);
+  cross_edge(edges[first + 1u], place, crossing);
+  cross_edge(edges[first + 2u], place, crossing);
+  cross_edge(edges[first + 3u], place, crossing);
+}
+
 // The value of a prepared polygon in a pixel of the tile.
 float prepared_value(uint j, uint polygon, ivec2 at, ivec2 pixel) {
   ivec4 box = boxes_of_polygons[j];
@@ -156,26 +229,29 @@ float prepared_value(uint j, uint polygon, ivec2 at, ivec2 pixel) {
   uint count = edge_counts[j];
   if (count == 0u) return value_at(polygon, pixel);
   vec2 place = vec2(at);
-  uint crossing_count = 0u;
-  vec3 crossing_edge;
-  for (uint e = 0u; e < count; ++e) {
-    vec4 edge = edges[8u * j + e];
-    float side = dot(edge.xy, place) + edge.z;
-    if (side <= -edge.w) return 0.0;
-    if (side < edge.w) {
-      ++crossing_count;
-      crossing_edge = vec3(edge.xy, side);
-    }
+  Crossing crossing = Crossing(false, 0u, vec3(0.0));
+  cross_four_edges(8u * j, place, crossing);
+  if (count > 4u) cross_four_edges(8u * j + 4u, place, crossing);
+  if (crossing.is_outside) return 0.0;
+  if (crossing.count > 1u) return value_at(polygon, pixel);
+  float covered = crossing.count == 0u ? 1.0 : half_plane(crossing.edge.xy, crossing.edge.z);
+#ifdef PATTERNS
+  uint pattern = patterns_of_polygons[j];
+  if (pattern != 0u) {
+    vec2 x = maps[3u * j], y = maps[3u * j + 1u];
+    covered *= transmittance_at(pattern, maps[3u * j + 2u] + x * place.x + y * place.y, x, y, edge_bits_of_polygons[j]);
   }
-  if (crossing_count > 1u) return value_at(polygon, pixel);
-  float covered = crossing_count == 0u ? 1.0 : half_plane(crossing_edge.xy, crossing_edge.z);
+#endif
   return covered * (dot(planes[j].xy, place) + planes[j].z);
 }
 
 // Whether a polygon covers the whole tile.
 bool covers_tile(uint polygon, vec2 origin) {
-  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = large[word + 9u];
+  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = corners_in(large[word + 9u]);
   if (count < 3u) return false;
+#ifdef PATTERNS
+  if (large[word + 9u] >> PATTERN_SHIFT != 0u) return false;
+#endif
   const float half_tile = 0.5 * float(TILE_SIDE);
   vec2 before = large_corners[first + count - 1u] - origin - half_tile;
   for (uint k = 0u; k < count; ++k) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads what list.glsl has listed.
 #define RECORD_WORDS 16u
+#define PATTERN_SHIFT 8u
+#define CORNERS_MASK 0xffu
 
 float record_float(uint polygon, uint k) { return uintBitsToFloat(large[RECORD_WORDS * polygon + k]); }
 ivec4 box_of(uint polygon) {
@@ -19,7 +21,7 @@ uint tile_number(ivec4 tiles, int k) {
 
 // False where a polygon lies beside a tile, beyond one of its edges.
 bool may_reach(uint polygon, ivec4 tiles, int k) {
-  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = large[word + 9u];
+  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = large[word + 9u] & CORNERS_MASK;
   if (count < 3u) return true;
   ivec2 tile_low = TILE_SIDE * (tiles.xy + ivec2(k % tiles.z, k / tiles.z));
   const float half_tile = 0.5 * float(TILE_SIDE);

@@ -8,6 +8,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "item_path.glsl"
 #include "near_stop.glsl"
+#include "pattern_record.glsl"
 
 #define SCAN_REACH 0.75    // cells on each side of a hit
 #define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction
@@ -23,11 +24,11 @@ void trace_corner(uint item, vec2 at, uint k) {
   for (uint c = 0u; c < crossings_of(item); ++c) stops[c][k] = stop_points[c];
 }
 
-bool near_stop_beside_failing(uvec4 v, uint c) {
+bool near_stop_beside_failing(uvec4 v, uint c, float radius) {
   vec2 distance = vec2(FAILED, -FAILED);
   for (int k = 0; k < 4; ++k) {
     if (heights[v[k]] >= 0.5 * FAILED) continue;
-    float here = length(stops[c][v[k]]) - 1.0;
+    float here = length(stops[c][v[k]]) - radius;
     distance = vec2(min(distance.x, here), max(distance.y, here));
   }
   return distance.x <= max(0.0, distance.y - distance.x);
@@ -35,7 +36,7 @@ bool near_stop_beside_failing(uvec4 v, uint c) {
 
 // Light may pass where the stop is near and the relative height does not fall below its lowest corner by more than the
 // corners differ (open_cells.h). Corners whose rays fail are ignored.
-bool may_transmit(uvec4 v, uint crossing_count) {
+bool may_transmit(uvec4 v, uint crossing_count, uint pattern) {
   int good = 0;
   vec2 height = vec2(FAILED, -FAILED);
   for (int k = 0; k < 4; ++k) {
@@ -49,7 +50,8 @@ bool may_transmit(uvec4 v, uint crossing_count) {
     vec2 q[4];
     for (int k = 0; k < 4; ++k) q[k] = stops[c][v[k]];
     // Beside failing rays the others count by their distances.
-    if (good == 4 ? !near_stop(q) : !near_stop_beside_failing(v, c)) return false;
+    float radius = stop_radius(pattern, c, crossing_count);
+    if (good == 4 ? !near_stop(q, radius) : !near_stop_beside_failing(v, c, radius)) return false;
   }
   return true;
 }
@@ -66,9 +68,12 @@ void report(uint kind, vec2 low, vec2 high, uint cells) {
   atomicMax(bounds_found[kind + 3u], last.y);
 }
 
-bool passes(uint k, uint crossing_count) {
+bool passes(uint k, uint crossing_count, uint pattern) {
   bool open = heights[k] <= 0.0;
-  for (uint c = 0u; c < crossing_count; ++c) open = open && dot(stops[c][k], stops[c][k]) <= 1.0;
+  for (uint c = 0u; c < crossing_count; ++c) {
+    float radius = stop_radius(pattern, c, crossing_count);
+    open = open && dot(stops[c][k], stops[c][k]) <= radius * radius;
+  }
   return open;
 }
 
@@ -79,12 +84,12 @@ void search_block(uint item, vec4 box, uint cells, uint block) {
   barrier();
   if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return;
   uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
-  uint crossing_count = crossings_of(item);
-  if (passes(v.x, crossing_count) || passes(v.y, crossing_count) || passes(v.z, crossing_count) ||
-      passes(v.w, crossing_count)) {
+  uint crossing_count = crossings_of(item), pattern = item_pattern(item);
+  if (passes(v.x, crossing_count, pattern) || passes(v.y, crossing_count, pattern) ||
+      passes(v.z, crossing_count, pattern) || passes(v.w, crossing_count, pattern)) {
     float around = p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
     report(PASSES, vec2(place) - around, vec2(place) + 1.0 + around, cells);
-  } else if (may_transmit(v, crossing_count)) {
+  } else if (may_transmit(v, crossing_count, pattern)) {
     report(MAY_PASS, vec2(place), vec2(place) + 1.0, cells);
   }
 }
@@ -108,7 +113,7 @@ void scan_meridian(uint item, vec4 box, uint cells, uint part) {
   if (min(heights[k], heights[next]) > 0.0) return;
   for (uint c = 0u; c < crossings_of(item); ++c) {
     vec2 a = stops[c][k], b = stops[c][next];
-    if (distance_to_edge(a, b) > 1.0 + 0.5 * length(b - a)) return;
+    if (distance_to_edge(a, b) > stop_radius(item_pattern(item), c, crossings_of(item)) + 0.5 * length(b - a)) return;
   }
   vec2 cell = at / box.zw * float(cells);
   report(PASSES, cell - SCAN_REACH, cell + SCAN_REACH, cells);

@@ -2,10 +2,11 @@
 // The state of a cell whose size is that of the ghost's features: unlike state_of(), it does not take a cell for closed
 // because all corners lie beyond a curved edge.
 #include "near_stop.glsl"
+#include "pattern.glsl"
 
 bool may_be_open(float low, float high) { return low <= max(0.0, high - low); }
 
-int cell_state(uvec4 v, uint crossing_count) {
+int cell_state(uvec4 v, uint crossing_count, uint pattern) {
   bool open = true, any = false, any_failed = false;
   vec2 height = vec2(FAILED, -FAILED);
   for (int k = 0; k < 4; ++k) {
@@ -22,9 +23,25 @@ int cell_state(uvec4 v, uint crossing_count) {
   for (uint c = 0u; c < crossing_count && !any_failed; ++c) {
     vec2 q[4];
     for (int k = 0; k < 4; ++k) q[k] = crossing(v[k], c);
-    if (!near_stop(q)) return STATE_CLOSED;
+    if (!near_stop(q, stop_radius(pattern, c, crossing_count))) return STATE_CLOSED;
   }
   return STATE_CUT;
+}
+
+// The region of a cell of four rays in order at the last crossing.
+int region_of_rays(uint pattern, uint a, uint b, uint c, uint d, uint crossing_count) {
+  uint last = crossing_count - 1u;
+  return region_of(pattern, crossing(a, last), crossing(b, last), crossing(c, last), crossing(d, last));
+}
+
+// The state of a cell with a stop pattern: cells where the pattern varies are drawn in parts.
+int patterned_state(uvec4 v, uint crossing_count, uint pattern) {
+  int how = cell_state(v, crossing_count, pattern);
+  if (pattern == 0u || how == STATE_CLOSED) return how;
+  for (int k = 0; k < 4; ++k)
+    if (failed(rays[v[k]])) return how;
+  int region = region_of_rays(pattern, v.x, v.y, v.z, v.w, crossing_count);
+  return region == REGION_DARK ? STATE_CLOSED : region == REGION_VARYING ? STATE_CUT : how;
 }
 
 // Sets what a cell's polygons have in common.

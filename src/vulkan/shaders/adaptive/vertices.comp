@@ -7,7 +7,13 @@ layout(local_size_x = 64) in;
 #include "grid.glsl"
 #include "../iris.glsl"
 #include "../vertex.glsl"
+#include "pattern_record.glsl"
 
 void main() {
-  if (find_ray()) vertices[first_ray + own] = vertex_at(own % side, own / side, side, crossings_of(item));
+  if (!find_ray()) return;
+  uint pattern = pattern_of(item), ray = first_ray + own, count = crossings_of(item);
+  uint sharp = pattern == 0u ? count : count - 1u;  // crossings
+  vec2 vertex = vertex_at(own % side, own / side, side, sharp);
+  if (sharp < count) vertex.y = max(vertex.y, length(crossing(ray, sharp)) - pattern_outer_radius(pattern));
+  vertices[ray] = vertex;
 }
