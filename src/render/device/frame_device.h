@@ -53,7 +53,7 @@ struct DevicePaths {
   std::vector<PacketPath> paths;  // their starts do not count
 };
 
-// What takes the place of the sharp iris in a ghost at one wavelength, at the last crossing of the stop: StopPattern.
+// A pattern that replaces the sharp iris in a ghost at one wavelength, at the last crossing of the stop (StopPattern).
 // Units: stop radii.
 struct DevicePattern {
   std::uint32_t table = 0;  // number of its table

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of a stop pattern, by its number from 1 on (0: the sharp iris): PatternRecord of adaptive_layout.h.
+// Reads the PatternRecord (adaptive_layout.h) of a stop pattern by its number from 1 on; 0 is the sharp iris.
 #define PATTERN_WORDS 8u
 
 uint pattern_word(uint pattern, uint k) { return patterns[PATTERN_WORDS * (pattern - 1u) + k]; }
