@@ -15,6 +15,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 // Edges are taken in fours rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so
 // that the last polygons of crowded tiles would be missing.
+
+// The most pixels of a polygon that one invocation draws by itself.
 #ifdef PATTERNS
 #define SMALL_PX 64  // the pattern is dearer than the sums
 #else
