@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 #include "base/tasks.h"
-#include "vulkan/grid_frame.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {
@@ -13,6 +13,9 @@ namespace {
 // The part of the squared error that the rays' spacing may spend; the rest is for what the measures of coarse cells do
 // not see. It was chosen, not derived: the papers' lenses came out at 50 dB and better with it (docs/gpu.md).
 constexpr double kBudgetShare = 0.25;
+// What is fetched: the counters, then the pixels.
+constexpr std::uint64_t kCountersBytes = sizeof(std::uint32_t) * kCounters;
+constexpr std::int32_t kRasterTile = 16;  // TILE_SIDE of adaptive/raster.comp
 
 // In parallel, since a picture's memory is first touched here.
 void copy_rows(const float* from, int rows, Image& image, int first_row) {
@@ -30,6 +33,13 @@ std::uint32_t levels_of(std::uint32_t side) {
   std::uint32_t levels = 1;
   for (; side % 2 == 0 && side > 2; side /= 2) ++levels;
   return levels;
+}
+
+// What a tracer of all paths must handle.
+PathGeometry geometry_of(const DevicePaths& paths) {
+  PathGeometry most = PathGeometry::Spheres;
+  for (const PacketPath& path : paths.paths) most = std::max(most, path.geometry());
+  return most;
 }
 
 // The records of all patterns, followed by their tables.
@@ -57,7 +67,19 @@ std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
 }  // namespace
 
 AdaptiveFrame::AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept)
-    : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity) {}
+    : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity) {
+  for (const Need& need : needs()) *need.capacity = std::min(*need.capacity, info_.storage_range_bytes / need.bytes);
+}
+
+std::array<AdaptiveFrame::Need, 5> AdaptiveFrame::needs() const {
+  return {{
+      {&capacity_.rays, std::max(kRayBytes, kCrossingBytes), std::uint64_t{kRaysABlock} * counters_[kRayBlocks]},
+      {&capacity_.polygons, kLargeBytes, counters_[kPolygonsListed]},
+      {&capacity_.corners, kCornerBytes, counters_[kCornersListed]},
+      {&capacity_.cut_cells, kCutBytes, counters_[kCutCells]},
+      {&capacity_.tile_entries, sizeof(std::uint32_t), counters_[kMostTileEntries]},
+  }};
+}
 
 int AdaptiveFrame::rows_a_band() const {
   const std::uint64_t row_bytes = kPixelBytes * static_cast<std::uint64_t>(job_.frame.width);
@@ -134,59 +156,66 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   parameters_.bound_count = narrow(bounds.size() / 8);
 }
 
+// The histogram, then the sums of the tiles that are drawn in parts.
+std::uint64_t AdaptiveFrame::sums_bytes() const {
+  return kHistogramBytes + lists_.most_split_tiles() * kRasterTile * kRasterTile * kSumBytes;
+}
+
 void AdaptiveFrame::need_buffers() {
   const std::uint64_t groups = job_.groups.size(), items = job_.items.size();
   const auto pixels = static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  const std::uint64_t tiles = std::uint64_t{parameters_.tiles_across} * parameters_.tiles_down;
   device_.need(Slot::Boxes, kBoxBytes * kMostLevels * groups);
   device_.need(Slot::Found, kFoundBytes * kMostLevels * groups);
   device_.need(Slot::States, kStateBytes * items);
   device_.need(Slot::Offsets, sizeof(std::uint32_t) * (items + 1));
-  device_.need(Slot::Sums, kHistogramBytes);
-  device_.need(Slot::Counters, sizeof(std::uint32_t) * kAdaptiveCounters);
-  device_.need(Slot::Indirect, kIndirectBytes);
+  device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Rays, kRayBytes * capacity_.rays);
   device_.need(Slot::Crossings, kCrossingBytes * capacity_.rays);
   device_.need(Slot::Vertices, kVertexBytes * capacity_.rays);
   device_.need(Slot::Large, kLargeBytes * capacity_.polygons);
   device_.need(Slot::LargeCorners, kCornerBytes * capacity_.corners);
   device_.need(Slot::CutCells, kCutBytes * capacity_.cut_cells);
-  device_.need(Slot::TileCounts, 2 * sizeof(std::uint32_t) * tiles);
-  device_.need(Slot::TileFirst, sizeof(std::uint32_t) * tiles);
-  device_.need(Slot::Wide, sizeof(std::uint32_t) * capacity_.polygons);
-  device_.need(Slot::TileLists, sizeof(std::uint32_t) * capacity_.tile_entries);
+  lists_ = tile_lists_of(parameters_.width, parameters_.height, kRasterTile);
+  lists_.polygon_capacity = narrow(capacity_.polygons);
+  lists_.entry_capacity = narrow(capacity_.tile_entries);
+  vulkan::need_buffers(device_, lists_);
+  device_.need(Slot::Sums, sums_bytes());
   device_.need(Slot::Picture, kPixelBytes * pixels);
-  device_.need_fetched(kPixelBytes * pixels + sizeof(std::uint32_t) * kAdaptiveCounters);
+  device_.need_fetched(kCountersBytes + kPixelBytes * pixels);
   parameters_.ray_capacity = narrow(capacity_.rays);
   parameters_.large_capacity = narrow(capacity_.polygons);
   parameters_.corner_capacity = narrow(capacity_.corners);
   parameters_.cut_capacity = narrow(capacity_.cut_cells);
-  parameters_.list_capacity = narrow(capacity_.tile_entries);
 }
 
-void AdaptiveFrame::clear_buffers() {
-  const std::uint64_t tiles = std::uint64_t{parameters_.tiles_across} * parameters_.tiles_down;
+// What the search counts into.
+void AdaptiveFrame::clear_search() {
   device_.clear(Slot::Found, 0, kFoundBytes * kMostLevels * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
-  device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kAdaptiveCounters);
-  device_.clear(Slot::TileCounts, 0, 2 * sizeof(std::uint32_t) * tiles);
-  device_.barrier();
+  device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }
 
-void AdaptiveFrame::dispatch_at(std::uint32_t level, Shader shader, GroupCount groups) {
+void AdaptiveFrame::clear_lists() {
+  device_.clear(Slot::Sums, kHistogramBytes, sums_bytes() - kHistogramBytes);
+  device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kRayBlocks);
+  vulkan::clear_lists(device_, lists_);
+}
+
+void AdaptiveFrame::dispatch_at(std::uint32_t level, Program program, GroupCount groups) {
   AdaptiveParameters p = parameters_;
   p.level = level;
-  device_.dispatch(shader, p, groups);
+  device_.dispatch(program, p, groups);
 }
 
 void AdaptiveFrame::search() {
   const std::uint64_t groups = job_.groups.size();
   for (std::uint32_t level = 0; level < kSearchLevels; ++level) {
-    dispatch_at(level, Shader::AdaptiveSearch, rows_of(groups * (level == 0 ? kFirstSearchBlocks : kSearchBlocks)));
+    dispatch_at(level, {Shader::AdaptiveSearch, geometry_},
+                rows_of(groups * (level == 0 ? kFirstSearchBlocks : kSearchBlocks)));
     device_.barrier();
   }
   device_.end_stage("pupils");
-  dispatch(Shader::AdaptiveMeasure, rows_of(groups));
+  dispatch({Shader::AdaptiveMeasure, geometry_}, rows_of(groups));
   device_.barrier();
   device_.end_stage("measures");
   dispatch(Shader::AdaptiveBudget, {1, 1});
@@ -195,7 +224,7 @@ void AdaptiveFrame::search() {
 }
 
 void AdaptiveFrame::list_polygons() {
-  dispatch_indirect(Shader::AdaptiveTrace, kIndirectRays);
+  dispatch_indirect({Shader::AdaptiveTrace, geometry_}, kIndirectRays);
   device_.barrier();
   device_.end_stage("rays");
   dispatch_indirect(Shader::AdaptiveVertices, kIndirectRays);
@@ -203,7 +232,7 @@ void AdaptiveFrame::list_polygons() {
   dispatch_indirect(Shader::AdaptiveCells, kIndirectRays);
   device_.barrier();
   device_.end_stage("cells");
-  dispatch_at(0, Shader::AdaptiveSizes, {1, 1});
+  dispatch(Shader::AdaptiveCutSize, {1, 1});
   device_.barrier();
   dispatch_indirect(Shader::AdaptiveCut, kIndirectCut);
   device_.barrier();
@@ -211,102 +240,125 @@ void AdaptiveFrame::list_polygons() {
 }
 
 void AdaptiveFrame::fill_tiles() {
-  dispatch_at(1, Shader::AdaptiveSizes, {1, 1});
-  device_.barrier();
-  AdaptiveParameters p = parameters_;
-  p.level = 0;
-  device_.dispatch_indirect(Shader::AdaptiveBin, p, kIndirectPolygons);
-  device_.barrier();
-  dispatch_at(2, Shader::AdaptiveSizes, {1, 1});
-  device_.barrier();
-  device_.dispatch_indirect(Shader::AdaptiveBinWide, p, kIndirectWide);
-  device_.barrier();
-  dispatch(Shader::AdaptiveTiles, groups_of(std::uint64_t{p.tiles_across} * p.tiles_down, info_));
-  device_.barrier();
-  p.level = 1;
-  device_.dispatch_indirect(Shader::AdaptiveBin, p, kIndirectPolygons);
-  device_.barrier();
-  device_.dispatch_indirect(Shader::AdaptiveBinWide, p, kIndirectWide);
-  device_.barrier();
+  fill_lists(device_, info_, lists_);
   device_.end_stage("tile lists");
-  dispatch(job_.patterns ? Shader::AdaptiveRasterPatterned : Shader::AdaptiveRaster, {p.tiles_across, p.tiles_down});
+  dispatch_indirect(job_.patterns ? Shader::AdaptiveRasterPatterned : Shader::AdaptiveRaster, kIndirectTiles);
+  device_.barrier();
+  dispatch_indirect(Shader::AdaptiveJoinParts, kIndirectTiles);
   device_.barrier();
   device_.end_stage("tiles");
 }
 
-void AdaptiveFrame::record() {
-  device_.begin();
-  clear_buffers();
-  device_.end_stage("clear");
-  search();
-  list_polygons();
-  fill_tiles();
-}
-
-bool AdaptiveFrame::try_band(Image& image, int first_row) {
-  need_buffers();
-  record();
-  const auto values =
-      3 * static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  if (job_.is_read) device_.fetch(Slot::Picture, sizeof(float) * values);
-  device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kAdaptiveCounters, sizeof(float) * values);
+bool AdaptiveFrame::finish_try() {
+  device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   device_.end_stage("fetch");
   device_.finish();
-  std::copy_n(device_.read<std::uint32_t>(sizeof(float) * values), std::size_t{kAdaptiveCounters}, counters_.begin());
-  if (counters_[kAdaptiveOverflows] != 0) return false;
-  if (job_.is_read) copy_rows(device_.read<float>(), parameters_.height, image, first_row);
+  std::copy_n(device_.read<std::uint32_t>(), std::size_t{kCounters}, counters_.begin());
+  work_.add_stages(device_.stages_ms());
+  return counters_[kOverflows] == 0;
+}
+
+bool AdaptiveFrame::try_search() {
+  need_buffers();
+  device_.begin();
+  clear_search();
+  clear_lists();
+  device_.barrier();
+  device_.end_stage("clear");
+  search();
+  return finish_try();
+}
+
+bool AdaptiveFrame::try_rows(int first_row, bool with_search, Image& image) {
+  need_buffers();
+  device_.begin();
+  if (with_search) clear_search();
+  clear_lists();
+  device_.barrier();
+  device_.end_stage("clear");
+  if (with_search) search();
+  list_polygons();
+  fill_tiles();
+  const std::uint64_t bytes =
+      kPixelBytes * static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
+  if (job_.is_read) device_.fetch(Slot::Picture, bytes, kCountersBytes);
+  if (!finish_try()) return false;
+  if (job_.is_read) copy_rows(device_.read<float>(kCountersBytes), parameters_.height, image, first_row);
+  work_.primitives += counters_[kPolygonsListed];
   return true;
 }
 
 // Buffers that were too small become as large as was counted and a quarter more. Stages after the first overflow were
 // not counted in full, so that another try may be needed.
-void AdaptiveFrame::grow() {
-  const auto enough = [&](std::uint64_t& capacity, std::uint64_t counted, std::uint64_t bytes) {
-    if (counted <= capacity) return;
-    const std::uint64_t most = info_.storage_range_bytes / bytes;
-    if (counted > most)
-      throw vk::OutOfDeviceMemoryError("the polygons of a frame do not fit into the device's buffers");
-    capacity = std::min(counted + counted / 4, most);
-  };
-  enough(capacity_.rays, std::uint64_t{kRaysABlock} * counters_[kRayBlocks], std::max(kRayBytes, kCrossingBytes));
-  enough(capacity_.polygons, counters_[kPolygonsListed], kLargeBytes);
-  enough(capacity_.corners, counters_[kCornersListed], kCornerBytes);
-  enough(capacity_.cut_cells, counters_[kCutCells], kCutBytes);
-  enough(capacity_.tile_entries, counters_[kTileEntries], sizeof(std::uint32_t));
+bool AdaptiveFrame::grow() {
+  if ((counters_[kOverflows] & kTurnsOverflow) != 0)
+    throw std::runtime_error("its driver ended a loop over the polygons of a tile early");
+  bool fits = true;
+  for (const Need& need : needs()) {
+    const std::uint64_t most = info_.storage_range_bytes / need.bytes;
+    if (need.counted > *need.capacity) *need.capacity = std::min(need.counted + need.counted / 4, most);
+    fits = fits && need.counted <= most;
+  }
+  return fits;
 }
 
-DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
+void AdaptiveFrame::prepare(const Frame& rows) {
+  parameters_.width = rows.width;
+  parameters_.height = rows.height;
+  upload_items(rows);
+}
+
+template <class Try>
+bool AdaptiveFrame::grow_until(const Try& succeeds) {
   constexpr int kMostTries = 8;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    if (succeeds()) return true;
+    if (!grow()) return false;
+  }
+  throw vk::OutOfDeviceMemoryError("the buffers of a frame do not suffice");
+}
+
+// Finds pupils and budget for the whole frame, then draws some rows at a time.
+void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
-  const int rows = rows_a_band();
-  upload_paths();
-  upload_patterns();
-  for (int row = 0; row < frame.height && !context.cancelled(); row += rows) {
+  prepare(frame);
+  if (!grow_until([&] { return try_search(); }))
+    throw vk::OutOfDeviceMemoryError("the rays of a frame do not fit into the device's buffers");
+  int rows = std::min(rows_a_band(), (frame.height + 1) / 2);
+  for (int row = 0; row < frame.height && !context.cancelled();) {
     Frame band = frame;
     band.origin_y += row;
     band.height = std::min(rows, frame.height - row);
-    AdaptiveParameters& p = parameters_;
-    p.item_count = narrow(job_.items.size());
-    p.group_count = narrow(job_.groups.size());
-    p.level = kSearchLevels;
-    p.flags = job_.iris.is_circle() ? kCircle : 0U;
-    p.width = band.width;
-    p.height = band.height;
-    p.tiles_across = (static_cast<std::uint32_t>(band.width) + kAdaptiveTile - 1) / kAdaptiveTile;
-    p.tiles_down = (static_cast<std::uint32_t>(band.height) + kAdaptiveTile - 1) / kAdaptiveTile;
-    p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * band.width * band.height);
-    p.least_peak = static_cast<float>(job_.least_peak);
-    upload_items(band);
-    int tries = 0;
-    while (!try_band(image, row)) {
-      if (++tries == kMostTries) throw vk::OutOfDeviceMemoryError("the buffers of a frame do not suffice");
-      grow();
+    prepare(band);
+    if (!grow_until([&] { return try_rows(row, false, image); })) {
+      if (band.height == 1)
+        throw vk::OutOfDeviceMemoryError("the polygons of a row of the frame do not fit into the device's buffers");
+      rows = (band.height + 1) / 2;
+      continue;
     }
-    work_.rays += std::uint64_t{kRaysABlock} * counters_[kRayBlocks];
-    work_.primitives += counters_[kPolygonsListed];
-    work_.stages_ms = device_.stages_ms();
-    if (context.progress) context.progress(static_cast<double>(row + band.height) / frame.height);
+    row += band.height;
+    if (context.progress) context.progress(static_cast<double>(row) / frame.height);
   }
+}
+
+DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
+  const Frame& frame = job_.frame;
+  upload_paths();
+  upload_patterns();
+  geometry_ = geometry_of(*job_.paths);
+  AdaptiveParameters& p = parameters_;
+  p.item_count = narrow(job_.items.size());
+  p.group_count = narrow(job_.groups.size());
+  p.level = kSearchLevels;
+  p.flags = job_.iris.is_circle() ? kCircle : 0U;
+  p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
+  p.least_peak = static_cast<float>(job_.least_peak);
+  prepare(frame);
+  if (rows_a_band() < frame.height || !grow_until([&] { return try_rows(0, true, image); }))
+    draw_in_bands(image, context);
+  else if (context.progress)
+    context.progress(1.0);
+  work_.rays += std::uint64_t{kRaysABlock} * counters_[kRayBlocks];
   return work_;
 }
 

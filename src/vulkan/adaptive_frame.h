@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "vulkan/adaptive_layout.h"
+#include "vulkan/counters.h"
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
+#include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
 
@@ -41,22 +43,38 @@ class AdaptiveFrame {
   DeviceWork draw(Image& image, const Context& context);
 
  private:
+  // How many of something a buffer can hold, the bytes of each, and how many the last try counted.
+  struct Need {
+    std::uint64_t* capacity;
+    std::uint64_t bytes, counted;
+  };
+  [[nodiscard]] std::array<Need, 5> needs() const;
   [[nodiscard]] int rows_a_band() const;
   void upload_paths();
   void upload_patterns();
   void upload_items(const Frame& band);
   void need_buffers();
-  void record();
-  void clear_buffers();
+  void clear_search();
+  void clear_lists();
   void search();
   void list_polygons();
   void fill_tiles();
-  // Draws a band of rows into the image; returns false if a buffer did not suffice, after which the capacity is larger.
-  [[nodiscard]] bool try_band(Image& image, int first_row);
-  void grow();
-  void dispatch(Shader shader, GroupCount groups) { device_.dispatch(shader, parameters_, groups); }
-  void dispatch_indirect(Shader shader, std::uint64_t byte) { device_.dispatch_indirect(shader, parameters_, byte); }
-  void dispatch_at(std::uint32_t level, Shader shader, GroupCount groups);
+  [[nodiscard]] std::uint64_t sums_bytes() const;
+  // Sets what is drawn: the whole frame, or some of its rows.
+  void prepare(const Frame& rows);
+  // Submissions: return false if a buffer did not suffice. Rows are drawn into the image, from its first row on.
+  [[nodiscard]] bool try_search();
+  [[nodiscard]] bool try_rows(int first_row, bool with_search, Image& image);
+  [[nodiscard]] bool finish_try();
+  // Afterwards. Returns false if the device's limits do not allow buffers that suffice.
+  [[nodiscard]] bool grow();
+  // Repeats a submission with larger buffers. Returns false if the device's limits do not allow those.
+  template <class Try>
+  [[nodiscard]] bool grow_until(const Try& succeeds);
+  void draw_in_bands(Image& image, const Context& context);
+  void dispatch(Program program, GroupCount groups) { device_.dispatch(program, parameters_, groups); }
+  void dispatch_indirect(Program program, std::uint64_t byte) { device_.dispatch_indirect(program, parameters_, byte); }
+  void dispatch_at(std::uint32_t level, Program program, GroupCount groups);
   [[nodiscard]] GroupCount rows_of(std::uint64_t groups) const;
 
   DeviceContext& device_;
@@ -64,8 +82,10 @@ class AdaptiveFrame {
   const AdaptiveJob& job_;
   AdaptiveKept& kept_;
   AdaptiveCapacity& capacity_;
+  PathGeometry geometry_ = PathGeometry::General;
   AdaptiveParameters parameters_;
-  std::array<std::uint32_t, kAdaptiveCounters> counters_{};  // of the last try
+  TileLists lists_;
+  std::array<std::uint32_t, kCounters> counters_{};  // of the last try
   DeviceWork work_;
 };
 

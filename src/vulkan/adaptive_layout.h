@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters, items and counters of the shaders of `adaptive`, as shaders/adaptive/common.glsl reads them.
+// The parameters and items of the shaders of `adaptive`, as shaders/adaptive/common.glsl reads them.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@ inline constexpr std::uint32_t kFirstSearchBlocks = 13, kSearchBlocks = 4;  // s
 // The parameters of a dispatch: the shaders' push constants, in their order.
 struct AdaptiveParameters {
   std::uint32_t item_count = 0, group_count = 0, level = 0, flags = 0;
-  std::uint32_t bound_count = 0, tiles_across = 0, tiles_down = 0;
+  std::uint32_t bound_count = 0;
   std::int32_t width = 0, height = 0;
-  std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, list_capacity = 0, cut_capacity = 0;
+  std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, cut_capacity = 0;
   float budget = 0, least_peak = 0;
 };
 
@@ -46,23 +46,6 @@ static_assert(sizeof(PatternRecord) == 32);
 
 inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;
-inline constexpr std::uint32_t kAdaptiveTile = 16, kRaysABlock = 64;
-
-// Words of Slot::Counters.
-enum AdaptiveCounter : std::uint32_t {
-  kPolygonsListed,
-  kCornersListed,
-  kCutCells,
-  kTileEntries,
-  kAdaptiveOverflows,
-  kRayBlocks,
-  kPeakBits,
-  kWidePolygons,
-  kAdaptiveCounters,
-};
-
-// Bytes of Slot::Indirect.
-inline constexpr std::uint64_t kIndirectRays = 0, kIndirectCut = 12, kIndirectPolygons = 24, kIndirectWide = 36;
-inline constexpr std::uint64_t kIndirectBytes = 48;
+inline constexpr std::uint32_t kRaysABlock = 64;
 
 }  // namespace contrejour::inline internal::vulkan

@@ -28,7 +28,9 @@ Residence residence_of(std::size_t slot) {
 }
 
 constexpr double kNanoseconds = 1e9;  // a second
-constexpr std::uint32_t kMostStages = 32;
+constexpr std::uint64_t kInvocationsAGroup = 64;
+constexpr std::uint32_t kMostStages = 256;
+constexpr std::uint32_t kGeometryConstant = 0;  // the number of GEOMETRY in shaders/trace.glsl
 
 }  // namespace
 
@@ -44,7 +46,7 @@ DeviceContext::DeviceContext(const vk::raii::PhysicalDevice& physical, const Dev
   device_ = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, &features));
   queue_ = device_.getQueue(family, 0);
   make_layouts();
-  make_pipelines();
+  read_pipelines();
   command_pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
   commands_ = vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1});
   fence_ = device_.createFence({});
@@ -75,16 +77,23 @@ void DeviceContext::make_layouts() {
   sets_ = vk::raii::DescriptorSets(device_, {*descriptor_pool_, *set_layout_});
 }
 
-void DeviceContext::make_pipelines() {
+void DeviceContext::read_pipelines() {
   const std::vector<std::uint8_t> kept = read_pipeline_file(properties_);
   cache_ = device_.createPipelineCache(vk::PipelineCacheCreateInfo({}, kept.size(), kept.data()));
-  for (std::size_t k = 0; k < kShaders; ++k) {
-    const auto code = code_of(static_cast<Shader>(k));
-    const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
-    pipelines_.push_back(
-        device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_)));
-  }
+  for (std::size_t k = 0; k < kPrograms; ++k) pipelines_.emplace_back(nullptr);
+}
+
+vk::Pipeline DeviceContext::pipeline_of(Program program) {
+  vk::raii::Pipeline& pipeline = pipelines_[number_of(program)];
+  if (*pipeline != vk::Pipeline{}) return *pipeline;
+  const auto code = code_of(program.shader);
+  const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
+  const auto geometry = static_cast<std::uint32_t>(program.geometry);
+  const vk::SpecializationMapEntry entry(kGeometryConstant, 0, sizeof geometry);
+  const vk::SpecializationInfo constants(1, &entry, sizeof geometry, &geometry);
+  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &constants);
+  pipeline = device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
+  return *pipeline;
 }
 
 void DeviceContext::need(Slot slot, std::uint64_t bytes) {
@@ -140,6 +149,13 @@ void DeviceContext::read_clock() {
 
 void DeviceContext::clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes) {
   commands_.front().fillBuffer(at(slot).handle(), first_byte, bytes, 0);
+}
+
+GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info) {
+  const std::uint64_t groups = (invocations + kInvocationsAGroup - 1) / kInvocationsAGroup;
+  const std::uint64_t rows = (groups + info.groups_an_axis - 1) / info.groups_an_axis;
+  if (rows == 0) return {0, 0};
+  return {static_cast<std::uint32_t>((groups + rows - 1) / rows), static_cast<std::uint32_t>(rows)};
 }
 
 void DeviceContext::barrier() {

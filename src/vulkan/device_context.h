@@ -57,13 +57,17 @@ enum class Slot : std::uint8_t {
   Starts,
   Wide,
   Patterns,
+  TileTasks,
 };
-inline constexpr std::size_t kSlots = 28;
+inline constexpr std::size_t kSlots = 29;
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {
   std::uint32_t x = 1, y = 1;
 };
+
+// Workgroups of 64 invocations, in rows that the device can take.
+[[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
 
 class DeviceContext {
  public:
@@ -86,16 +90,16 @@ class DeviceContext {
   // A submission: begin, any number of the others, finish.
   void begin();
   template <class P>
-  void dispatch(Shader shader, const P& parameters, GroupCount groups) {
+  void dispatch(Program program, const P& parameters, GroupCount groups) {
     if (groups.x == 0 || groups.y == 0) return;
-    push(shader, parameters);
+    push(program, parameters);
     commands_.front().dispatch(groups.x, groups.y, 1);
     invocations_ += kGroup * groups.x * groups.y;
   }
   // The group counts are the device's: three words of Slot::Indirect, from this byte on.
   template <class P>
-  void dispatch_indirect(Shader shader, const P& parameters, std::uint64_t byte) {
-    push(shader, parameters);
+  void dispatch_indirect(Program program, const P& parameters, std::uint64_t byte) {
+    push(program, parameters);
     commands_.front().dispatchIndirect(at(Slot::Indirect).handle(), byte);
   }
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
@@ -119,14 +123,15 @@ class DeviceContext {
   static constexpr std::uint64_t kGroup = 64;  // invocations of most shaders' workgroups
 
   void make_layouts();
-  void make_pipelines();
+  void read_pipelines();
+  [[nodiscard]] vk::Pipeline pipeline_of(Program program);
   void describe_buffers();
   void read_clock();
   template <class P>
-  void push(Shader shader, const P& parameters) {
+  void push(Program program, const P& parameters) {
     static_assert(sizeof(P) <= kPushedBytes);
     const vk::raii::CommandBuffer& commands = commands_.front();
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(shader)]);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_of(program));
     commands.pushConstants<P>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, parameters);
   }
 
@@ -140,7 +145,7 @@ class DeviceContext {
   vk::raii::DescriptorSetLayout set_layout_ = nullptr;
   vk::raii::PipelineLayout pipeline_layout_ = nullptr;
   vk::raii::PipelineCache cache_ = nullptr;
-  std::vector<vk::raii::Pipeline> pipelines_;  // by Shader
+  std::vector<vk::raii::Pipeline> pipelines_;  // by program; null until it is used
   vk::raii::DescriptorPool descriptor_pool_ = nullptr;
   std::vector<vk::raii::DescriptorSet> sets_;  // one
   vk::raii::CommandPool command_pool_ = nullptr;

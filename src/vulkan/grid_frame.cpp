@@ -8,8 +8,7 @@
 namespace contrejour::inline internal::vulkan {
 namespace {
 
-constexpr std::uint32_t kInvocationsAGroup = 64;
-constexpr int kTile = 8;
+constexpr std::int32_t kTile = 8;  // the workgroups of large_cells.comp and large_primitives.comp
 // The sums hold 63 bits: an estimate of the light of all grids in one pixel takes this many, and the rest is for
 // grazing rays, which may be brighter than estimated, and for single values of tiny cells.
 constexpr double kFixedPoint = 0x1p50;
@@ -48,13 +47,6 @@ class BlockLevels {
 
 }  // namespace
 
-GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info) {
-  const std::uint64_t groups = (invocations + kInvocationsAGroup - 1) / kInvocationsAGroup;
-  const std::uint64_t rows = (groups + info.groups_an_axis - 1) / info.groups_an_axis;
-  if (rows == 0) return {0, 0};
-  return {static_cast<std::uint32_t>((groups + rows - 1) / rows), static_cast<std::uint32_t>(rows)};
-}
-
 double largest_reflectance(const float* table) {
   constexpr int kFirst = ReflectanceTables::kIntervals / 4;
   return *std::max_element(table + kFirst, table + ReflectanceTables::kIntervals + 1);
@@ -64,8 +56,9 @@ std::uint64_t ray_count(const DeviceGrid& grid) {
   return static_cast<std::uint64_t>(grid.side) * static_cast<std::uint64_t>(grid.side);
 }
 
-GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits)
-    : device_(device), info_(info), job_(job), limits_(limits) {
+GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
+                     GridKept& kept)
+    : device_(device), info_(info), job_(job), limits_(limits), kept_(kept) {
   const double most = most_light(job.grids);
   if (most > 0.0) fixed_point_ = kFixedPoint / most;
   const std::uint64_t range = info.storage_range_bytes;
@@ -128,7 +121,7 @@ void GridFrame::trace(std::size_t first, std::size_t end) {
   for (std::size_t k = first; k < end; ++k) {
     grids_[k].first_ray = static_cast<std::uint32_t>(ray);
     const bool in_double = job_.grids[k].precision == PacketPrecision::Double;
-    device_.dispatch(in_double ? Shader::TraceDouble : Shader::TraceFloat, grids_[k],
+    device_.dispatch({in_double ? Shader::TraceDouble : Shader::TraceFloat, job_.grids[k].path.geometry()}, grids_[k],
                      groups_of(ray_count(job_.grids[k]), info_));
     ray += ray_count(job_.grids[k]);
   }
@@ -137,16 +130,17 @@ void GridFrame::trace(std::size_t first, std::size_t end) {
 
 void GridFrame::draw_large(Shader shader, std::size_t any) {
   device_.barrier();
-  const Parameters& p = grids_[any];
-  device_.dispatch(shader, p,
-                   {static_cast<std::uint32_t>((p.width + kTile - 1) / kTile),
-                    static_cast<std::uint32_t>((p.height + kTile - 1) / kTile)});
+  device_.end_stage("cells");
+  fill_lists(device_, info_, lists_);
+  device_.end_stage("tile lists");
+  device_.dispatch_indirect(shader, grids_[any], kIndirectTiles);
 }
 
 void GridFrame::share_vertices(std::size_t first, std::size_t end) {
   for (std::size_t k = first; k < end; ++k)
     device_.dispatch(Shader::Vertices, grids_[k], groups_of(ray_count(job_.grids[k]), info_));
   device_.barrier();
+  device_.end_stage("vertices");
 }
 
 void GridFrame::draw_cells(std::size_t first, std::size_t end) {
@@ -206,15 +200,18 @@ void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
 }
 
 void GridFrame::draw_batch(std::size_t first, std::size_t end) {
-  device_.clear(Slot::Counters, sizeof(std::uint32_t) * kLargeCount, sizeof(std::uint32_t) * 2);
+  device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kOverflows);  // those of a batch come first
+  clear_lists(device_, lists_);
   device_.barrier();
   trace(first, end);
   device_.barrier();
+  device_.end_stage("rays");
   if (std::holds_alternative<BundleOptions>(job_.style))
     draw_cells(first, end);
   else
     draw_primitives(first, end);
   device_.barrier();
+  device_.end_stage("tiles");
 }
 
 void GridFrame::resolve(const Band& band, Image& image) {
@@ -227,7 +224,9 @@ void GridFrame::resolve(const Band& band, Image& image) {
   device_.barrier();
   device_.fetch(Slot::Picture, sizeof(float) * values);
   device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters, sizeof(float) * values);
+  device_.end_stage("fetch");
   device_.finish();
+  work_.add_stages(device_.stages_ms());
   std::copy_n(device_.read<float>(), values, image.pixels.data() + image.index(0, band.first_row));
   std::copy_n(device_.read<std::uint32_t>(sizeof(float) * values), std::size_t{kCounters}, counters_.begin());
 }
@@ -239,6 +238,11 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   device_.need(Slot::Picture, kPixelBytes * pixels);
   device_.need_fetched(kPixelBytes * pixels + sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
+  lists_ = tile_lists_of(band.frame.width, band.frame.height, kTile);
+  lists_.flags = std::holds_alternative<TiledOptions>(job_.style) ? kListPrimitives : 0U;
+  lists_.polygon_capacity = limits_.large_polygons;
+  lists_.entry_capacity = static_cast<std::uint32_t>(kept_.tile_entries);
+  need_buffers(device_, lists_);
   device_.need(Slot::Large, kLargeBytes * limits_.large_polygons);
   device_.need(Slot::LargeCorners, kCornerBytes * limits_.large_corners);
   std::uint64_t most_rays = batch_rays;
@@ -270,6 +274,17 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   return counters_[kOverflows] == 0;
 }
 
+void GridFrame::make_room(std::uint64_t& batch_rays) {
+  const std::uint64_t needed = counters_[kMostTileEntries], most = info_.storage_range_bytes / sizeof(std::uint32_t);
+  const bool only_lists = counters_[kOverflows] == kListsOverflow;
+  if (only_lists && kept_.tile_entries < most) {
+    kept_.tile_entries = std::min(needed + needed / 4, most);
+    return;
+  }
+  if (batch_rays == 1) throw vk::OutOfDeviceMemoryError("the polygons of one grid do not fit into the device's memory");
+  batch_rays = std::max<std::uint64_t>(batch_rays / 4, 1);
+}
+
 DeviceWork GridFrame::draw(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
   const int rows = rows_a_band();
@@ -283,9 +298,7 @@ DeviceWork GridFrame::draw(Image& image, const Context& context) {
       row += band.frame.height;
       continue;
     }
-    if (batch_rays == 1)
-      throw vk::OutOfDeviceMemoryError("the polygons of one grid do not fit into the device's memory");
-    batch_rays = std::max<std::uint64_t>(batch_rays / 4, 1);
+    make_room(batch_rays);
   }
   return work_;
 }

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "vulkan/counters.h"
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
+#include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
 
@@ -20,10 +22,16 @@ struct BatchLimits {
   std::uint64_t rays_a_submission = std::uint64_t{1} << 24U;
 };
 
+// The sizes of buffers that grow, from frame to frame.
+struct GridKept {
+  std::uint64_t tile_entries = std::uint64_t{1} << 21U;
+};
+
 class GridFrame {
  public:
   // All must outlive the frame.
-  GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits);
+  GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
+            GridKept& kept);
 
   // Replaces the image's values. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
@@ -36,9 +44,11 @@ class GridFrame {
 
   [[nodiscard]] int rows_a_band() const;
   void prepare(const Frame& band);
-  // Returns false if a buffer for polygons did not suffice.
+  // Returns false if a buffer did not suffice.
   [[nodiscard]] bool draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context);
   void draw_batch(std::size_t first, std::size_t end);
+  // After a buffer did not suffice: makes it larger, or batches smaller.
+  void make_room(std::uint64_t& batch_rays);
   void trace(std::size_t first, std::size_t end);
   void draw_cells(std::size_t first, std::size_t end);
   void draw_primitives(std::size_t first, std::size_t end);
@@ -52,6 +62,8 @@ class GridFrame {
   const DeviceInfo& info_;
   const GridJob& job_;
   BatchLimits limits_;
+  GridKept& kept_;
+  TileLists lists_;  // of the present band
   double fixed_point_ = 1.0;  // units of the sums for a pixel value of 1
   std::vector<Parameters> grids_;  // of the present band, by grid
   std::vector<std::uint32_t> blocks_at_;  // of `tiled`, by grid: where its levels of merging begin
@@ -59,7 +71,6 @@ class GridFrame {
   DeviceWork work_;
 };
 
-[[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
 [[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
 // The largest value of a table at angles of incidence up to 75 degrees.
 [[nodiscard]] double largest_reflectance(const float* table);

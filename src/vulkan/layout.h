@@ -34,8 +34,6 @@ enum ParameterFlags : std::uint32_t {
 };
 inline constexpr std::uint32_t kMethodShift = 4;
 
-enum Counter : std::uint32_t { kPrimitiveCount, kLargeCount, kCornerCount, kOverflows, kCounters };
-
 inline constexpr std::uint64_t kRayBytes = 16, kCrossingBytes = 8 * kMaxStopCrossings, kVertexBytes = 8;
 inline constexpr std::uint64_t kLargeBytes = 64, kCornerBytes = 8, kSumBytes = 24, kPixelBytes = 12;
 inline constexpr float kFailedHeight = 3.0e38F;  // FAILED

@@ -4,23 +4,25 @@
 namespace contrejour::inline internal::vulkan {
 namespace {
 
-#include "vulkan/adaptive_bin.inc"
-#include "vulkan/adaptive_bin_wide.inc"
 #include "vulkan/adaptive_budget.inc"
 #include "vulkan/adaptive_cells.inc"
 #include "vulkan/adaptive_cut.inc"
+#include "vulkan/adaptive_cut_size.inc"
+#include "vulkan/adaptive_join_parts.inc"
 #include "vulkan/adaptive_measure.inc"
 #include "vulkan/adaptive_raster.inc"
 #include "vulkan/adaptive_raster_patterned.inc"
 #include "vulkan/adaptive_search.inc"
-#include "vulkan/adaptive_sizes.inc"
-#include "vulkan/adaptive_tiles.inc"
 #include "vulkan/adaptive_trace.inc"
 #include "vulkan/adaptive_vertices.inc"
+#include "vulkan/bin.inc"
+#include "vulkan/bin_wide.inc"
 #include "vulkan/blocks.inc"
 #include "vulkan/cells.inc"
 #include "vulkan/large_cells.inc"
 #include "vulkan/large_primitives.inc"
+#include "vulkan/list_sizes.inc"
+#include "vulkan/place_lists.inc"
 #include "vulkan/primitives.inc"
 #include "vulkan/resolve.inc"
 #include "vulkan/trace.inc"
@@ -42,6 +44,10 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::Primitives: return kPrimitivesCode;
     case Shader::LargePrimitives: return kLargePrimitivesCode;
     case Shader::Vertices: return kVerticesCode;
+    case Shader::ListSizes: return kListSizesCode;
+    case Shader::Bin: return kBinCode;
+    case Shader::BinWide: return kBinWideCode;
+    case Shader::PlaceLists: return kPlaceListsCode;
     case Shader::AdaptiveSearch: return kAdaptiveSearchCode;
     case Shader::AdaptiveMeasure: return kAdaptiveMeasureCode;
     case Shader::AdaptiveBudget: return kAdaptiveBudgetCode;
@@ -49,12 +55,10 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveVertices: return kAdaptiveVerticesCode;
     case Shader::AdaptiveCells: return kAdaptiveCellsCode;
     case Shader::AdaptiveCut: return kAdaptiveCutCode;
-    case Shader::AdaptiveSizes: return kAdaptiveSizesCode;
-    case Shader::AdaptiveBin: return kAdaptiveBinCode;
-    case Shader::AdaptiveBinWide: return kAdaptiveBinWideCode;
-    case Shader::AdaptiveTiles: return kAdaptiveTilesCode;
+    case Shader::AdaptiveCutSize: return kAdaptiveCutSizeCode;
     case Shader::AdaptiveRaster: return kAdaptiveRasterCode;
     case Shader::AdaptiveRasterPatterned: return kAdaptiveRasterPatternedCode;
+    case Shader::AdaptiveJoinParts: return kAdaptiveJoinPartsCode;
   }
   return {};
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders, compiled from shaders/*.comp and shaders/adaptive/*.comp when the library is built.
+// The shaders, compiled from the folder shaders when the library is built.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+
+#include "optics/trace/packet_trace.h"
 
 namespace contrejour::inline internal::vulkan {
 
@@ -19,6 +21,10 @@ enum class Shader : std::uint8_t {
   Primitives,
   LargePrimitives,
   Vertices,
+  ListSizes,
+  Bin,
+  BinWide,
+  PlaceLists,
   AdaptiveSearch,
   AdaptiveMeasure,
   AdaptiveBudget,
@@ -26,14 +32,24 @@ enum class Shader : std::uint8_t {
   AdaptiveVertices,
   AdaptiveCells,
   AdaptiveCut,
-  AdaptiveSizes,
-  AdaptiveBin,
-  AdaptiveBinWide,
-  AdaptiveTiles,
+  AdaptiveCutSize,
   AdaptiveRaster,
   AdaptiveRasterPatterned,
+  AdaptiveJoinParts,
 };
-inline constexpr std::size_t kShaders = 23;
+inline constexpr std::size_t kShaders = 25;
+
+// A shader, and for those that trace rays the surfaces that they must handle: drivers leave out the code of others.
+struct Program {
+  Program(Shader which, PathGeometry surfaces = PathGeometry::General) : shader(which), geometry(surfaces) {}
+
+  Shader shader;
+  PathGeometry geometry;
+};
+inline constexpr std::size_t kPrograms = 3 * kShaders;
+[[nodiscard]] inline std::size_t number_of(Program program) {
+  return 3 * static_cast<std::size_t>(program.shader) + static_cast<std::size_t>(program.geometry);
+}
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);
 

@@ -26,6 +26,8 @@ class VulkanDevice final : public FrameDevice {
       : instance_(std::move(instance)), info_(std::move(info)), options_(std::move(options)) {
     if (!(options_.longest_wait_s > 0.0))
       options_.longest_wait_s = info_.kind == "processor" ? kLongestWaitOfProcessor_s : kLongestWait_s;
+    if (options_.most_buffer_bytes > 0)
+      info_.storage_range_bytes = std::min(info_.storage_range_bytes, options_.most_buffer_bytes);
   }
 
   [[nodiscard]] const DeviceInfo& info() const override { return info_; }
@@ -39,7 +41,7 @@ class VulkanDevice final : public FrameDevice {
   Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) override {
     adaptive_.paths = nullptr;  // grids use the same buffers
     return run(job.grids.empty(), image, context,
-               [&](DeviceContext& device) { return GridFrame(device, info_, job, {}).draw(image, context); });
+               [&](DeviceContext& device) { return GridFrame(device, info_, job, {}, grids_).draw(image, context); });
   }
 
   Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) override {
@@ -109,6 +111,7 @@ class VulkanDevice final : public FrameDevice {
       message = error.what();
     }
     adaptive_ = {};
+    grids_ = {};
     context_.reset();
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
@@ -119,6 +122,7 @@ class VulkanDevice final : public FrameDevice {
   DeviceOptions options_;
   std::unique_ptr<DeviceContext> context_;
   AdaptiveKept adaptive_;
+  GridKept grids_;
 };
 
 DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {
@@ -135,8 +139,8 @@ DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& gr
   device.need(Slot::Crossings, kCrossingBytes * count);
   device.need_fetched((kRayBytes + kCrossingBytes) * count);
   device.begin();
-  device.dispatch(grid.precision == PacketPrecision::Double ? Shader::TraceDouble : Shader::TraceFloat, p,
-                  groups_of(count, info_));
+  const Shader shader = grid.precision == PacketPrecision::Double ? Shader::TraceDouble : Shader::TraceFloat;
+  device.dispatch({shader, grid.path.geometry()}, p, groups_of(count, info_));
   device.barrier();
   device.fetch(Slot::Rays, kRayBytes * count);
   device.fetch(Slot::Crossings, kCrossingBytes * count, kRayBytes * count);

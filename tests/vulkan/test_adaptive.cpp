@@ -68,3 +68,24 @@ TEST_CASE("edges of ghosts lie where the CPU draws them, whatever bends the map 
   const Light light{.direction = direction_from_angles(0.052, 0.022)};
   check_near(device, *zoom, {&light, 1}, settings);
 }
+
+TEST_CASE("a frame whose polygons do not fit into a buffer is drawn in bands, and long lists of tiles in parts") {
+  constexpr double kError = 0.001;
+  OnDevice whole, banded({.most_buffer_bytes = 1U << 21U});
+  if (!whole.kept.device) return;
+  const LensState lens = lens_of("heliar");
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.wavelengths = 3;
+  const Light near_axis{.direction = direction_from_angles(0.012, 0.006)};
+  const Flare exact = frame_by(AdaptiveOptions{kFine}, lens, {&near_axis, 1}, settings, whole.cpu_cache);
+  const Flare got = frame_by(AdaptiveOptions{kError}, lens, {&near_axis, 1}, settings, whole.cache);
+  constexpr std::uint64_t kTiles = 12, kListPart = 1024, kRecordBytes = 64;
+  CHECK(got.statistics.primitives > kTiles * kListPart);  // a list at least has several parts
+  test::check_agreement(whole, lens, exact, got, {-20.0 * std::log10(kError), 0.02});
+  const Flare in_bands = frame_by(AdaptiveOptions{kError}, lens, {&near_axis, 1}, settings, banded.cache);
+  CHECK(got.statistics.primitives * kRecordBytes > banded.kept.device->info().storage_range_bytes);
+  test::check_agreement(banded, lens, exact, in_bands, {-20.0 * std::log10(kError), 0.02});
+  const Flare again = frame_by(AdaptiveOptions{kError}, lens, {&near_axis, 1}, settings, banded.cache);
+  CHECK(again.image.pixels == in_bands.image.pixels);
+  test::check_no_messages();
+}

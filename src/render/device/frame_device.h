@@ -4,6 +4,7 @@
 // Thread-safety: one thread at a time uses a device.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -130,7 +131,17 @@ struct DeviceWork {
     submissions += other.submissions;
     uploaded_bytes += other.uploaded_bytes;
     ms += other.ms;
-    stages_ms.insert(stages_ms.end(), other.stages_ms.begin(), other.stages_ms.end());
+    add_stages(other.stages_ms);
+  }
+  // Times of the same stage are summed.
+  void add_stages(const std::vector<std::pair<std::string, double>>& others) {
+    for (const auto& [stage, took_ms] : others) {
+      const auto same = std::ranges::find(stages_ms, stage, &std::pair<std::string, double>::first);
+      if (same == stages_ms.end())
+        stages_ms.emplace_back(stage, took_ms);
+      else
+        same->second += took_ms;
+    }
   }
 };
 
@@ -168,6 +179,7 @@ struct DeviceOptions {
   // Not empty: validation layers are on, where they are installed, and each message is reported.
   std::function<void(const std::string& message)> on_message = {};
   double longest_wait_s = 0.0;  // until a submission counts as hanging; 0: 10 s, on processors acting as GPUs 300 s
+  std::uint64_t most_buffer_bytes = 0;  // a smaller limit than the device's for one buffer, for tests; 0: the device's
   // Called before each submission with its number; an exception counts as the device's failure. For tests.
   std::function<void(std::uint64_t submission)> before_submission = {};
 };

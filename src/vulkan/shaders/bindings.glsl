@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The buffers and the parameters of the shaders that draw grids. The parameters are those of src/vulkan/layout.h.
 #include "buffers.glsl"
+#include "counts.glsl"
 
 layout(push_constant) uniform Parameters {
   uint reals_at, integers_at, step_count, first_ray;
@@ -19,8 +20,3 @@ p;
 #define FLAG_LAST_LEVEL 4u  // cells are merged no further
 #define FLAG_OBSCURED 8u    // something within the lens blocks light
 #define FLAG_METHOD_SHIFT 4u  // interpolation in a quadrilateral, as TiledOptions::Interpolation
-
-#define COUNT_PRIMITIVES 0
-#define COUNT_LARGE 1
-#define COUNT_CORNERS 2
-#define COUNT_OVERFLOWS 3

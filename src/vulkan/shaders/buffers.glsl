@@ -10,13 +10,19 @@ layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };
 layout(std430, set = 0, binding = 3) buffer Rays { vec4 rays[]; };
 layout(std430, set = 0, binding = 4) buffer Crossings { vec2 crossings[]; };  // MAX_CROSSINGS a ray, stop radii
 layout(std430, set = 0, binding = 5) buffer Sums { uint sums[]; };            // low and high words by pixel and channel
-layout(std430, set = 0, binding = 6) buffer Counters { uint counters[]; };    // counters.glsl
+layout(std430, set = 0, binding = 6) buffer Counters { uint counters[]; };    // counts.glsl
 layout(std430, set = 0, binding = 7) writeonly buffer Picture { float picture[]; };
 layout(std430, set = 0, binding = 8) readonly buffer Bounds { float bounds[]; };  // of the iris, 8 each
 layout(std430, set = 0, binding = 9) buffer Large { uint large[]; };              // 16 words a polygon
 layout(std430, set = 0, binding = 10) buffer LargeCorners { vec2 large_corners[]; };
 layout(std430, set = 0, binding = 11) buffer Blocks { float blocks[]; };  // of merged cells
 layout(std430, set = 0, binding = 13) buffer Vertices { vec2 vertices[]; };  // by ray: irradiance, blocked
+layout(std430, set = 0, binding = 21) buffer TileCounts { uint tile_counts[]; };  // by tile: polygons, and those listed
+layout(std430, set = 0, binding = 22) buffer TileFirst { uint tile_first[]; };    // by tile: where its list begins
+layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };    // polygons by tile
+layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
+layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
+layout(std430, set = 0, binding = 28) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/own_list.glsl
 #ifdef DOUBLE
 layout(std430, set = 0, binding = 12) readonly buffer Doubles { double doubles[]; };  // of paths, in double
 #define real double

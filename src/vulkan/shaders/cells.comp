@@ -31,12 +31,13 @@ void add_line(vec2 from, vec2 to, float flux) {
   for (int k = 0; k < steps; ++k) add_point(mix(from, to, (float(k) + 0.5) / float(steps)), flux / float(steps));
 }
 
-// Lists the polygon. If memory does not suffice, the host draws the frame again in smaller parts.
+// Lists the polygon, whose shoelace area is then positive. If memory does not suffice, the host draws the frame again
+// in smaller parts.
 void list_large(Density density, ivec4 box) {
-  uint at = atomicAdd(counters[COUNT_LARGE], 1u);
+  uint at = atomicAdd(counters[COUNT_POLYGONS], 1u);
   uint first = atomicAdd(counters[COUNT_CORNERS], uint(corner_count));
   if (at >= p.large_capacity || first + uint(corner_count) > p.corner_capacity) {
-    counters[COUNT_OVERFLOWS] = 1u;
+    atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_POLYGONS);
     return;
   }
   uint word = 16u * at;
@@ -51,7 +52,9 @@ void list_large(Density density, ivec4 box) {
   large[word + 10u] = uint(base.x);
   large[word + 11u] = uint(base.y);
   for (uint k = 0u; k < 4u; ++k) large[word + 12u + k] = uint(box[k]);
-  for (int k = 0; k < corner_count; ++k) large_corners[first + uint(k)] = polygon[k];
+  bool is_reversed = twice_polygon_area() < 0.0;
+  for (int k = 0; k < corner_count; ++k)
+    large_corners[first + uint(k)] = polygon[is_reversed ? corner_count - 1 - k : k];
 }
 
 // The frame's pixels within bounds, as (first, last); false if there are none. The bounds are clamped before they are

@@ -26,9 +26,9 @@ float extent_squared(uvec4 v) {
 }
 
 void list_large(Primitive q, ivec4 box) {
-  uint at = atomicAdd(counters[COUNT_LARGE], 1u);
+  uint at = atomicAdd(counters[COUNT_POLYGONS], 1u);
   if (at >= p.large_capacity) {
-    counters[COUNT_OVERFLOWS] = 1u;
+    atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_POLYGONS);
     return;
   }
   uint word = 16u * at;

@@ -22,10 +22,23 @@ float from_fixed(uint low, uint high) {
   return negative ? -size : size;
 }
 
-void add_to_channel(uint at, float value) {
-  uvec2 fixed_value = to_fixed(value);
-  if ((fixed_value.x | fixed_value.y) == 0u) return;
-  uint before = atomicAdd(sums[at], fixed_value.x);
-  uint carry = before > ~fixed_value.x ? 1u : 0u;
-  if (fixed_value.y + carry != 0u) atomicAdd(sums[at + 1u], fixed_value.y + carry);
+uvec2 add_words(uvec2 a, uvec2 b) {
+  uint carry;
+  uint low = uaddCarry(a.x, b.x, carry);
+  return uvec2(low, a.y + b.y + carry);
 }
+
+uvec2 times_words(uvec2 a, uint factor) {
+  uint high, low;
+  umulExtended(a.x, factor, high, low);
+  return uvec2(low, a.y * factor + high);
+}
+
+void add_fixed(uint at, uvec2 value) {
+  if ((value.x | value.y) == 0u) return;
+  uint before = atomicAdd(sums[at], value.x);
+  uint carry = before > ~value.x ? 1u : 0u;
+  if (value.y + carry != 0u) atomicAdd(sums[at + 1u], value.y + carry);
+}
+
+void add_to_channel(uint at, float value) { add_fixed(at, to_fixed(value)); }

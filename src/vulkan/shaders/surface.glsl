@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One ray at one surface: the formulas of optics/surface/surface-inl.h under the same names.
+// With LIKE_CPU, operations are neither contracted nor reordered, so that rays fall on the same side of a pixel's edge
+// as on the CPU.
+#ifdef LIKE_CPU
+#define exactly precise
+#else
+#define exactly
+#endif
+
 struct Ray3 {
   real x, y, z, dx, dy, dz;
 };
@@ -16,7 +24,7 @@ struct SurfaceFramePoint {
 real square_root(real x) { return sqrt(x); }
 
 // From RayGrid's origin to another point of the entrance plane. Returns the ratio of distances from the light.
-real perturb_direction(inout Ray3 ray, real offset_x, real offset_y) {
+real perturb_direction(exactly inout Ray3 ray, real offset_x, real offset_y) {
   ray.dx += offset_x;
   ray.dy += offset_y;
   real ratio = real(1.0) / square_root(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
@@ -32,7 +40,7 @@ Hit intersect(Ray3 ray, real z_vertex, real c, real direction) {
   real y = ray.y + to_plane * ray.dy;
   real f = c * (x * x + y * y);
   real g = ray.dz - c * (x * ray.dx + y * ray.dy);
-  Hit hit;
+  exactly Hit hit;
   hit.cos_in_squared = g * g - c * f;
   hit.cos_in = square_root(max(hit.cos_in_squared, real(0.0)));
   real t = f / (g + direction * hit.cos_in);
@@ -55,7 +63,7 @@ Hit intersect_tilted(Ray3 ray, Axis3 n, real c, real direction) {
   real z = ray.z + to_plane * ray.dz;
   real f = c * (x * x + y * y + z * z);
   real g = towards - c * (x * ray.dx + y * ray.dy + z * ray.dz);
-  Hit hit;
+  exactly Hit hit;
   hit.cos_in_squared = g * g - c * f;
   hit.cos_in = square_root(max(hit.cos_in_squared, real(0.0)));
   real t = f / (g + direction * hit.cos_in);
@@ -74,14 +82,14 @@ SurfaceFramePoint surface_frame_point(Hit hit, Axis3 n, real c) {
   return SurfaceFramePoint(hit.x - n.x * factor, hit.y - n.y * factor, real(1.0) - c * height);
 }
 
-void move_to(inout Ray3 ray, Hit hit, real z_vertex) {
+void move_to(exactly inout Ray3 ray, Hit hit, real z_vertex) {
   ray.x = hit.x;
   ray.y = hit.y;
   ray.z = z_vertex + hit.sag;
 }
 
 // Returns cos^2 of the angle of refraction; negative for total reflection. The GLSL function of the name differs.
-real refract_ray(inout Ray3 ray, Hit hit, real eta, real direction) {
+real refract_ray(exactly inout Ray3 ray, Hit hit, real eta, real direction) {
   real cos_out_squared = real(1.0) - eta * eta * (real(1.0) - hit.cos_in * hit.cos_in);
   real along_normal = direction * (square_root(max(cos_out_squared, real(0.0))) - eta * hit.cos_in);
   ray.dx = eta * ray.dx + along_normal * hit.nx;
@@ -90,7 +98,7 @@ real refract_ray(inout Ray3 ray, Hit hit, real eta, real direction) {
   return cos_out_squared;
 }
 
-void reflect_ray(inout Ray3 ray, Hit hit, real direction) {
+void reflect_ray(exactly inout Ray3 ray, Hit hit, real direction) {
   real twice = real(2.0) * direction * hit.cos_in;
   ray.dx -= twice * hit.nx;
   ray.dy -= twice * hit.ny;

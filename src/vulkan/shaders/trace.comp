@@ -9,6 +9,7 @@ layout(local_size_x = 64) in;
 #define START_REALS 14u
 real start_real(int k) { return reals[p.reals_at + k]; }
 
+#define LIKE_CPU
 #include "trace.glsl"
 
 void main() {

@@ -18,6 +18,11 @@
 #define STEP_BLOCKS_WITHIN 2
 #define STEP_GENERAL 4
 
+// The surfaces of the path, as PathGeometry: code for others is left out.
+layout(constant_id = 0) const uint GEOMETRY = 2u;
+#define WITH_SHAPES (GEOMETRY != 0u)
+#define WITH_GENERAL (GEOMETRY == 2u)
+
 uint path_reals, path_integers, path_steps;  // where the path's numbers begin; their number
 vec2 stop_points[MAX_CROSSINGS];             // where the last ray crossed the stop, stop radii
 
@@ -40,7 +45,7 @@ real look_up(int table, real u) {
 }
 
 Hit meet(inout Ray3 ray, uint step, bool general, real c, real direction, out SurfaceFramePoint own) {
-  int shape_at = step_integer(step, 5);
+  int shape_at = WITH_SHAPES ? step_integer(step, 5) : -1;
   Shape shape;
   if (shape_at >= 0)
     shape = Shape(shape_at, step_integer(step, 6), step_integer(step, 7), step_integer(step, 8),
@@ -106,7 +111,7 @@ void absorb(inout PacketState s, uint step, real from_z) {
 
 void advance(inout PacketState s, uint step) {
   int event = step_integer(step, 0), flags = step_integer(step, 2);
-  bool general = (flags & STEP_GENERAL) != 0;
+  bool general = WITH_GENERAL && (flags & STEP_GENERAL) != 0;
   real direction = step_real(step, 4);
   real from_z = s.ray.z;
   SurfaceFramePoint own;

@@ -3,6 +3,7 @@
 // device itself decides how finely each ghost is drawn. An item is a ghost of a light at one wavelength; a group is all
 // items of a ghost and a light. Sizes and layouts are those of src/vulkan/adaptive_layout.h.
 #include "../buffers.glsl"
+#include "../counts.glsl"
 
 #define ITEM_WORDS 24u
 #define GROUP_WORDS 4u
@@ -19,49 +20,18 @@ layout(std430, set = 0, binding = 17) buffer Found { uint found[]; };
 layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by item
 layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by item: its first block of 64 rays
 layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
-layout(std430, set = 0, binding = 21) buffer TileCounts { uint tile_counts[]; };  // by tile: polygons, and those listed
-layout(std430, set = 0, binding = 22) buffer TileFirst { uint tile_first[]; };    // by tile: where its list begins
-layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };    // polygons by tile
-layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
-
-layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
 layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
 layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
 
 layout(push_constant) uniform Parameters {
   uint item_count, group_count, level, flags;
-  uint bound_count, tiles_across, tiles_down;
+  uint bound_count;
   int width, height;
-  uint ray_capacity, large_capacity, corner_capacity, list_capacity, cut_capacity;
+  uint ray_capacity, large_capacity, corner_capacity, cut_capacity;
   float budget;         // squared error of the frame's samples, in peaks
   float least_peak;     // that errors are relative to
 }
 p;
-
-// Words of `counters`.
-#define COUNT_POLYGONS 0
-#define COUNT_CORNERS 1
-#define COUNT_CUT 2
-#define COUNT_LISTED 3
-#define COUNT_OVERFLOWS 4  // bits: rays, polygons, corners, cut cells, lists
-#define COUNT_BLOCKS 5     // of 64 rays
-#define COUNT_WIDE 7       // polygons of many tiles
-#define COUNT_PEAK 6       // bits of a float: the peak that errors are relative to
-#define OVERFLOW_RAYS 1u
-#define OVERFLOW_POLYGONS 2u
-#define OVERFLOW_CUT 4u
-#define OVERFLOW_LISTS 8u
-
-// Dispatches whose size the device decides: three words each in `indirect`.
-#define DISPATCH_RAYS 0u
-#define DISPATCH_CUT 1u
-#define DISPATCH_POLYGONS 2u
-#define DISPATCH_WIDE 3u
-#define DISPATCH_ROW 1024u  // groups a row
-
-#define TILE_SIDE 16
-
-#define WIDE_TILES 32u  // from which on a polygon has a workgroup of its own
 
 // A part of a cut cell, in cut_cells[].y: the cell's first ray in its grid, the part, the parts a side less 1.
 #define CUT_CELL_MASK 0x1fffffu
@@ -69,9 +39,6 @@ p;
 #define CUT_PARTS_SHIFT 25u
 #define CUT_FINENESS 16.0  // parts of cut cells a side of the grid, at least
 #define MOST_CUT_PARTS 4u
-
-// A group of a dispatch in rows, by its number.
-uint linear_group() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 uint item_word(uint item, uint k) { return items[ITEM_WORDS * item + k]; }
 float item_float(uint item, uint k) { return uintBitsToFloat(item_word(item, k)); }
@@ -158,12 +125,6 @@ vec4 final_box(uint group) {
   const float margin = 0.04;
   vec4 box = box_of_level(group, p.level);
   return vec4(box.xy - margin * box.zw, (1.0 + 2.0 * margin) * box.zw);
-}
-
-void set_dispatch(uint dispatch, uint group_count) {
-  indirect[3u * dispatch] = min(group_count, DISPATCH_ROW);
-  indirect[3u * dispatch + 1u] = (group_count + DISPATCH_ROW - 1u) / DISPATCH_ROW;
-  indirect[3u * dispatch + 2u] = 1u;
 }
 
 // The item whose rays are in a block.

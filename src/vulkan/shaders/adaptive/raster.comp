@@ -5,9 +5,11 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
-#include "record.glsl"
+#include "../lists/record.glsl"
+#include "../lists/own_list.glsl"
 #include "../coverage.glsl"
 #include "../sums.glsl"
+#include "parts.glsl"
 #ifdef PATTERNS
 #include "../iris.glsl"
 #include "pattern.glsl"
@@ -22,7 +24,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #else
 #define SMALL_PX 12
 #endif
-#define TILE_WORDS 1536u  // low and high words by pixel and channel
 
 shared uint tile_sums[TILE_WORDS];
 shared uint plane_sums[18];  // of polygons that cover the tile: value at the first pixel, slopes, by channel
@@ -34,16 +35,17 @@ shared uint edge_counts[32];  // 0: not prepared
 shared ivec4 boxes_of_polygons[32];
 shared vec3 gains[32], planes[32];
 float fixed_units;  // a unit of pixel value
+ivec2 tile_low;     // its first pixel
 
 vec3 coarse_sum = vec3(0.0), fine_sum = vec3(0.0);
 float coarse_shift, fine_shift;  // 1.5 * 2^23 units: adding one rounds to a whole number of units
 
 void begin_sums() {
-  float peak = max(uintBitsToFloat(counters[COUNT_PEAK]), 1e-30);
+  float peak = frame_peak();
   float coarse_unit = exp2(ceil(log2(peak)) - 8.0);  // sums of up to 65536 peaks are exact
   coarse_shift = coarse_unit * 12582912.0;
   fine_shift = coarse_shift * 6.103515625e-5;  // 2^-14: sums of the rests of 2048 polygons are exact
-  fixed_units = exp2(36.0 - ceil(log2(peak)));
+  fixed_units = units_of(peak);
 }
 
 void add_to_plane(uint at, float value) {
@@ -148,7 +150,7 @@ vec3 gain_of(uint polygon) {
 }
 
 // Polygons of few pixels: an invocation draws one by itself, into sums of the tile in fixed point.
-void draw_small(uint polygon, ivec4 box, ivec2 tile_low) {
+void draw_small(uint polygon, ivec4 box) {
   vec3 gain = gain_of(polygon) * fixed_units;
   for (int y = box.y; y <= box.w; ++y) {
     for (int x = box.x; x <= box.z; ++x) {
@@ -166,7 +168,6 @@ void prepare(uint from, uint count) {
   if (from + j >= count) return;
   uint polygon = others[from + j], word = RECORD_WORDS * polygon;
   uint first = large[word + 8u], corners = corners_in(large[word + 9u]);
-  ivec2 tile_low = ivec2(gl_WorkGroupID.xy) * TILE_SIDE;
   vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
   bool is_convex = corners >= 3u && corners <= 8u;
   if (e >= corners) edges[t] = vec4(0.0, 0.0, 1.0, 0.0);  // every pixel is inside
@@ -287,7 +288,6 @@ float plane_at(uint channel, vec2 at) {
 // Draws the next polygons of the tile's list: first those of few pixels and of the whole tile, one an invocation, then
 // the others, one pixel an invocation.
 void draw_some(uint from, uint end, ivec2 pixel) {
-  ivec2 tile_low = ivec2(gl_WorkGroupID.xy) * TILE_SIDE;
   if (gl_LocalInvocationIndex == 0u) others_count = 0u;
   barrier();
   uint k = from + gl_LocalInvocationIndex;
@@ -298,7 +298,7 @@ void draw_some(uint from, uint end, ivec2 pixel) {
     uint word = RECORD_WORDS * polygon;
     vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
     if (extent.x * extent.y <= SMALL_PX)
-      draw_small(polygon, box, tile_low);
+      draw_small(polygon, box);
     else if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(polygon, origin))
       draw_whole(polygon, origin);
     else
@@ -309,29 +309,59 @@ void draw_some(uint from, uint end, ivec2 pixel) {
   for (uint chunk = 0u; chunk < count; chunk += 32u) {
     prepare(chunk, count);
     barrier();
-    for (uint j = 0u; j < min(32u, count - chunk); ++j) {
+    uint j = 0u, prepared = min(32u, count - chunk);
+    for (; j < prepared; ++j) {
       float value = prepared_value(j, others[chunk + j], ivec2(gl_LocalInvocationID.xy), pixel);
       if (value != 0.0) add(value, gains[j]);
     }
+    check_end(j, prepared);
     barrier();
   }
 }
 
-void main() {
-  uint tile = gl_WorkGroupID.y * p.tiles_across + gl_WorkGroupID.x;
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  uint t = gl_LocalInvocationIndex;
-  for (uint k = t; k < TILE_WORDS; k += 256u) tile_sums[k] = 0u;
-  if (t < 18u) plane_sums[t] = 0u;
-  begin_sums();
-  uint first = tile_first[tile], end = min(first + tile_counts[2u * tile + 1u], p.list_capacity);
-  barrier();
-  for (uint from = first; from < end; from += 256u) draw_some(from, end, pixel);
-  if (pixel.x >= p.width || pixel.y >= p.height) return;
-  uint at = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
+// The tile's plane at a pixel, exactly.
+uvec2 plane_words(uint channel, uvec2 at) {
+  uint k = 6u * channel;
+  uvec2 by_x = times_words(uvec2(plane_sums[k + 2u], plane_sums[k + 3u]), at.x);
+  uvec2 by_y = times_words(uvec2(plane_sums[k + 4u], plane_sums[k + 5u]), at.y);
+  return add_words(uvec2(plane_sums[k], plane_sums[k + 1u]), add_words(by_x, by_y));
+}
+
+// Of a tile that is drawn in parts, whose sums are exact: join_parts.comp turns them into pixels.
+void add_part(uint split) {
+  uint t = gl_LocalInvocationIndex, at = SPLIT_SUMS + TILE_WORDS * (split - 1u) + 6u * t;
+  for (uint c = 0u; c < 3u; ++c) {
+    uvec2 sum = add_words(to_fixed(coarse_sum[c] * fixed_units), to_fixed(fine_sum[c] * fixed_units));
+    sum = add_words(sum, uvec2(tile_sums[6u * t + 2u * c], tile_sums[6u * t + 2u * c + 1u]));
+    add_fixed(at + 2u * c, add_words(sum, plane_words(c, gl_LocalInvocationID.xy)));
+  }
+}
+
+void write_pixel(ivec2 pixel) {
+  uint t = gl_LocalInvocationIndex, at = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
   for (uint c = 0u; c < 3u; ++c)
     picture[at + c] = (coarse_sum[c] + fine_sum[c]) +
                       (from_fixed(tile_sums[6u * t + 2u * c], tile_sums[6u * t + 2u * c + 1u]) +
                        plane_at(c, vec2(gl_LocalInvocationID.xy))) /
                           fixed_units;
+}
+
+void main() {
+  Task task;
+  if (!find_task(task)) return;
+  tile_low = TILE_SIDE * task.tile;
+  ivec2 pixel = tile_low + ivec2(gl_LocalInvocationID.xy);
+  uint t = gl_LocalInvocationIndex;
+  for (uint k = t; k < TILE_WORDS; k += 256u) tile_sums[k] = 0u;
+  if (t < 18u) plane_sums[t] = 0u;
+  begin_sums();
+  barrier();
+  uint from = task.from;
+  for (; from < task.end; from += 256u) draw_some(from, task.end, pixel);
+  check_end(from, task.end);
+  if (pixel.x >= p.width || pixel.y >= p.height) return;
+  if (task.split == 0u)
+    write_pixel(pixel);
+  else
+    add_part(task.split);
 }

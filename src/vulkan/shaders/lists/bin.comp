@@ -4,8 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
-#include "common.glsl"
+#include "parameters.glsl"
 #include "record.glsl"
+#include "reach.glsl"
 
 shared uint tiles_before[64];  // and of the polygon itself
 shared ivec4 tile_boxes[64];   // first column and row, columns, rows

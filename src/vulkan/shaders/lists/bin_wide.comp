@@ -3,8 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
-#include "common.glsl"
+#include "parameters.glsl"
 #include "record.glsl"
+#include "reach.glsl"
 
 void main() {
   uint own = linear_group();

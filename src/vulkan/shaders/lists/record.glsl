@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads what adaptive/list.glsl, cells.comp and primitives.comp have listed, whose bounds lie at the same place.
+#define RECORD_WORDS 16u
+#define PATTERN_SHIFT 8u
+#define CORNERS_MASK 0xffu
+
+float record_float(uint polygon, uint k) { return uintBitsToFloat(large[RECORD_WORDS * polygon + k]); }
+ivec4 box_of(uint polygon) {
+  uint word = RECORD_WORDS * polygon + 12u;
+  return ivec4(int(large[word]), int(large[word + 1u]), int(large[word + 2u]), int(large[word + 3u]));
+}
