@@ -139,8 +139,6 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
 std::string device_lacks(const PlannedFrame& planned) {
   if (planned.lens.iris.field) return "a picture as the iris is";
   if (planned.plan.dirt) return "dirt is";
-  // The measures of streaks are too coarse: an anamorphic lens in a small frame reaches 44 dB, and 50 are asked for.
-  if (!planned.lens.has_axial_symmetry()) return "a lens without axial symmetry is";
   return {};
 }
 

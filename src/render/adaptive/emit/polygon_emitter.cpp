@@ -7,6 +7,7 @@
 
 #include "render/adaptive/budget/small_polygons.h"
 #include "render/adaptive/cells/cell_shape.h"
+#include "render/adaptive/emit/line_parts.h"
 #include "render/adaptive/emit/pixel_pattern.h"
 
 namespace contrejour::inline internal::adaptive {
@@ -67,6 +68,26 @@ struct PolygonSize {
   }
 };
 
+// The two corners that are farthest from each other.
+std::array<Vec2, 2> ends_of(std::span<const Corner> polygon) {
+  std::array<Vec2, 2> ends{polygon[0].position, polygon[0].position};
+  for (const Corner& a : polygon) {
+    for (const Corner& b : polygon) {
+      if (length(b.position - a.position) > length(ends[1] - ends[0])) ends = {a.position, b.position};
+    }
+  }
+  return ends;
+}
+
+// Whether a polygon is so thin that its corners, in float, do not hold its area, and so straight that it is a line.
+bool is_line(std::span<const Corner> polygon, const PolygonSize& size) {
+  if (std::abs(size.twice_area) > 2.0 * kThin_px * size.longest()) return false;
+  const auto [from, to] = ends_of(polygon);
+  const double most = kThin_px * length(to - from);
+  return std::ranges::all_of(
+      polygon, [&, a = from, b = to](const Corner& c) { return std::abs(cross(b - a, c.position - a)) <= most; });
+}
+
 }  // namespace
 
 void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& light, const Occluders& occluders) {
@@ -74,7 +95,7 @@ void PolygonEmitter::emit(std::span<const Corner> polygon, const CellLight& ligh
   const PolygonSize size(polygon);
   const double area = 0.5 * std::abs(size.twice_area);
   const double fraction = 0.5 * std::abs(size.twice_fraction) * (light.triangle ? 2.0 : 1.0);
-  if (size.is_resolved()) {
+  if (size.is_resolved() && !is_line(polygon, size)) {
     const double longest = size.longest();
     CellLight small = light;
     if (longest < kSmall_px) {
@@ -161,23 +182,15 @@ void PolygonEmitter::emit_shadows(std::span<const Corner> polygon, const CellLig
                     });
 }
 
-// Emits a polygon thinner than rounding can resolve as points along its length that carry its flux.
+// Emits a polygon thinner than rounding can resolve as points that carry its flux, one in each pixel that it crosses.
 void PolygonEmitter::emit_line(std::span<const Corner> polygon, const Flux& flux) {
-  std::array<Vec2, 2> ends{polygon[0].position, polygon[0].position};
-  for (const Corner& a : polygon) {
-    for (const Corner& b : polygon) {
-      if (length(b.position - a.position) > length(ends[1] - ends[0])) ends = {a.position, b.position};
-    }
-  }
-  const Vec2 along = ends[1] - ends[0];
-  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * length(along))), 1, kMaxPoints);
-  LinearIrradiance point;
-  for (std::size_t c = 0; c < 3; ++c) point.value[c] = static_cast<float>(flux[c] / count);
-  for (int k = 0; k < count; ++k) {
-    const Vec2 p = ends[0] + along * ((k + 0.5) / count);
-    point.at = {static_cast<float>(p.x), static_cast<float>(p.y)};
+  const auto [from, to] = ends_of(polygon);
+  for_each_pixel_part(from, to, band_.width, band_.height, [&](Vec2 middle, double fraction) {
+    LinearIrradiance point;
+    for (std::size_t c = 0; c < 3; ++c) point.value[c] = static_cast<float>(flux[c] * fraction);
+    point.at = {static_cast<float>(middle.x), static_cast<float>(middle.y)};
     out_.add({&point.at, 1}, point);
-  }
+  });
 }
 
 }  // namespace contrejour::inline internal::adaptive
