@@ -6,6 +6,8 @@
 
 #include "base/tasks.h"
 #include "contrejour/expert/trace.h"
+#include "ghosts/light_frame.h"
+#include "optics/trace/by_wavelength.h"
 #include "render/pupils/kept_pupils.h"
 #include "render/radiometry/wavelength_samples.h"
 
@@ -57,71 +59,78 @@ double shift_mm(const RayGrid& a, const RayGrid& b) {
   return largest;
 }
 
-// Traces the rays of one ghost of one light.
+// Traces the rays of one ghost of one light, in the light's meridional frame where there is one.
 class GhostProbe {
  public:
-  GhostProbe(const FramePlan& plan, const LensState& lens, const Ghost& ghost, const PlannedLight& light,
+  // All arguments must outlive this object.
+  GhostProbe(const FramePlan& plan, const StepsByWavelength& steps, const Ghost& ghost, const PlannedLight& light,
              const Context& context)
-      : plan_(plan), lens_(lens), ghost_(ghost), light_(light), context_(context),
-        window_(entrance_window(lens, light.source)) {}
+      : plan_(plan), steps_(steps), ghost_(ghost), light_(light), context_(context),
+        frame_(light.source, has_axial_symmetry(steps.lens(), ghost)) {
+    for (const PlannedPass& pass : light.passes) lambda_nm_.push_back(pass.lambda_nm);
+  }
 
   // nullopt where nothing gets through.
   [[nodiscard]] std::optional<GhostSpectrum> spectrum() const {
-    const auto pupil = this->pupil();
+    const EntranceWindow window = LightWindows(steps_.lens(), light_.source).of(frame_.symmetric);
+    const std::optional<Rectangle> pupil = this->pupil(window);
     if (!pupil) return std::nullopt;
-    std::vector<double> lambda_nm;
-    for (const PlannedPass& pass : light_.passes) lambda_nm.push_back(pass.lambda_nm);
-    GhostSpectrum out{WavelengthSamples(lambda_nm, kRayWavelengths), std::vector<double>(lambda_nm.size(), 0.0)};
+    GhostSpectrum out{WavelengthSamples(lambda_nm_, kRayWavelengths), std::vector<double>(lambda_nm_.size(), 0.0)};
     std::vector<RayGrid> grids(out.samples.size());
+    const LightRays rays{{0.0, 0.0, window.z_mm}, frame_.source};
     for (std::size_t k = 0; k < grids.size(); ++k) {
-      const double at_nm = lambda_nm[out.samples[k]];
-      grids[k].trace(ghost_path(lens_, ghost_, at_nm), plan_.tables.at(at_nm), iris_, light_.source, window_.z_mm,
-                     *pupil, kSide, PacketPrecision::Double);
+      PacketPath path(steps_.at(lambda_nm_[out.samples[k]]), ghost_, rays);
+      grids[k].trace(path, iris_, *pupil, kSide, PacketPrecision::Double);
     }
-    const std::vector<std::size_t> common = common_rays(grids);
-    const Vec2 step = grids.front().step_mm();
-    out.middle_mm = (pupil->low + pupil->high) * 0.5;
-    for (const std::size_t ray : common) {
-      const Vec2 steps{static_cast<double>(ray % kSide), static_cast<double>(ray / kSide)};
-      out.rays_mm.push_back(pupil->low + Vec2{steps.x * step.x, steps.y * step.y} - out.middle_mm);
-    }
-    out.by_ray.assign(lambda_nm.size(), std::vector<double>(common.size(), 0.0));
-    for (std::size_t pass = 0; pass < lambda_nm.size(); ++pass) {
-      const std::vector<double> factors = out.samples.factors(grids.size(), pass);
-      for (std::size_t k = 0; k < grids.size(); ++k) {
-        out.carried[pass] += factors[k] * mean_transmission(grids[k]);
-        for (std::size_t at = 0; at < common.size(); ++at)
-          out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at]]);
-      }
-      out.carried[pass] = std::max(out.carried[pass], 0.0);
-    }
+    add_rays(grids, *pupil, out);
     if (grids.size() > 1) out.shift_mm = shift_mm(grids[0], grids[1]);
     return out;
   }
 
  private:
-  // The pupil at the middle wavelength or, if that is empty, at one of the ends of the spectrum.
-  [[nodiscard]] std::optional<Rectangle> pupil() const {
-    for (const PlannedPass* pass :
-         {&light_.passes[light_.passes.size() / 2], &light_.passes.front(), &light_.passes.back()}) {
-      const OpticalPath path = ghost_path(lens_, ghost_, pass->lambda_nm);
-      const pupils::Pupil found = plan_.kept_pupils->find_window_pupil(
-          {ghost_, light_.source, pass->lambda_nm, path.stop_radius_mm, Iris{}, pupils::PupilEffort::Finest, &context_},
-          [&] {
-            return find_pupil(pupils::PupilRays(path, plan_.tables.at(pass->lambda_nm), light_.source, iris_, window_),
-                              {.context = &context_});
-          });
-      if (!found.is_empty()) return found.box();
+  // The largest box of the pupil.
+  [[nodiscard]] std::optional<Rectangle> pupil(const EntranceWindow& window) const {
+    const auto boxes =
+        plan_.kept_pupils->find_ghost_pupil({steps_, ghost_, light_.source, window, lambda_nm_, 1.0, &context_}).boxes;
+    const auto area = [](const Rectangle& box) { return (box.high.x - box.low.x) * (box.high.y - box.low.y); };
+    const auto largest = std::ranges::max_element(boxes, {}, area);
+    return largest == boxes.end() ? std::nullopt : std::optional(*largest);
+  }
+
+  void add_rays(std::span<const RayGrid> grids, const Rectangle& pupil, GhostSpectrum& out) const {
+    const std::vector<std::size_t> common = common_rays(grids);
+    const Vec2 step = grids.front().step_mm();
+    const bool has_mirror_image = frame_.symmetric && (pupil.low.y > 0.0 || pupil.high.y < 0.0);
+    const Vec2 middle =
+        has_mirror_image ? Vec2{0.5 * (pupil.low.x + pupil.high.x), 0.0} : (pupil.low + pupil.high) * 0.5;
+    out.middle_mm = frame_.to_lens_frame(middle);
+    for (const double mirror : {1.0, -1.0}) {
+      if (mirror < 0.0 && !has_mirror_image) continue;
+      for (const std::size_t ray : common) {
+        const Vec2 steps{static_cast<double>(ray % kSide), static_cast<double>(ray / kSide)};
+        const Vec2 at = pupil.low + Vec2{steps.x * step.x, steps.y * step.y};
+        out.rays_mm.push_back(frame_.to_lens_frame(Vec2{at.x, mirror * at.y} - middle));
+      }
     }
-    return std::nullopt;
+    out.by_ray.assign(lambda_nm_.size(), std::vector<double>(out.rays_mm.size(), 0.0));
+    for (std::size_t pass = 0; pass < lambda_nm_.size(); ++pass) {
+      const std::vector<double> factors = out.samples.factors(grids.size(), pass);
+      for (std::size_t k = 0; k < grids.size(); ++k) {
+        out.carried[pass] += factors[k] * mean_transmission(grids[k]);
+        for (std::size_t at = 0; at < out.rays_mm.size(); ++at)
+          out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at % common.size()]]);
+      }
+      out.carried[pass] = std::max(out.carried[pass], 0.0);
+    }
   }
 
   const FramePlan& plan_;
-  const LensState& lens_;
+  const StepsByWavelength& steps_;
   const Ghost& ghost_;
   const PlannedLight& light_;
   const Context& context_;
-  EntranceWindow window_;
+  LightFrame frame_;
+  std::vector<double> lambda_nm_;
   IrisShape iris_{Iris{}};
 };
 
@@ -210,10 +219,11 @@ std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensS
   out.passes.resize(pairs.size());
   Context quiet = context;
   quiet.progress = {};
+  const StepsByWavelength steps(lens, plan.tables);
   const bool done = parallel_for(pairs.size(), quiet, [&](std::size_t k) {
     const PlannedLight& light = plan.lights[pairs[k].light];
     if (light.passes.empty()) return;
-    const auto spectrum = GhostProbe(plan, lens, plan.ghosts[pairs[k].ghost], light, quiet).spectrum();
+    const auto spectrum = GhostProbe(plan, steps, plan.ghosts[pairs[k].ghost], light, quiet).spectrum();
     if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, max_spread_px * frame.pixel_pitch_mm);
   });
   return done ? std::optional(std::move(out)) : std::nullopt;
