@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/tasks.h"
 #include "contrejour/expert/trace.h"
@@ -15,7 +16,10 @@ namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kMinBands = 3;      // at least this many bands
-constexpr std::size_t kRayWavelengths = 7;     // wavelengths at which rays are traced
+// Wavelengths at which rays are traced: until two of them one after the other were predicted by those before, since
+// coatings of several layers reflect unevenly.
+constexpr std::size_t kFewestWavelengths = 6, kMostWavelengths = 21;
+constexpr double kPredictedWithin = 0.005;  // of the largest mean transmittance
 constexpr int kSide = 9;                // rays a side
 // Slopes of fewer rays, or of rays that lie nearly on a line, would be arbitrary across it.
 constexpr std::size_t kFewestRays = 6;
@@ -27,17 +31,43 @@ struct GhostSpectrum {
   WavelengthSamples samples;
   std::vector<double> carried;  // the mean transmittance, one for each pass
   std::vector<Vec2> rays_mm;  // the rays that arrive at all traced wavelengths, relative to middle_mm
+  std::vector<double> seen;  // how much each of these rays counts
   std::vector<std::vector<double>> by_ray;  // for each pass, the transmittance of these rays
   Vec2 middle_mm;  // of the pupil
   double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
 };
 
-double mean_transmission(const RayGrid& grid) {
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t k = 0; k < grid.blocked.size(); ++k)
-    if (grid.blocked[k] <= kNearlyThrough) sum += grid.transmission[k], ++count;
-  return count > 0 ? sum / count : 0.0;
+// How much a ray counts by where it arrives: 1 within the frame, and less with the distance from it, since the light of
+// a ghost that is partly outside should be right where it is seen. It changes smoothly as the light moves.
+class Seen {
+ public:
+  Seen(const Frame& frame, const LightFrame& light) : frame_(frame), light_(light) {}
+
+  // mirror: -1 for the ray's mirror image in the light's meridional plane.
+  [[nodiscard]] double at(const RayGrid& grid, std::size_t ray, double mirror = 1.0) const {
+    constexpr double kFalls = 0.25;  // of the frame's size: the distance at which a ray counts a quarter
+    const Vec2 pixel =
+        frame_.pixel_from_sensor(light_.to_lens_frame({grid.sensor_x_mm[ray], mirror * grid.sensor_y_mm[ray]}));
+    const double x = std::max({-pixel.x, pixel.x - frame_.width, 0.0}),
+                 y = std::max({-pixel.y, pixel.y - frame_.height, 0.0});
+    const double far = (x * x + y * y) / std::pow(kFalls * std::max(frame_.width, frame_.height), 2.0);
+    return 1.0 / std::pow(1.0 + far, 2.0);
+  }
+
+ private:
+  Frame frame_;
+  LightFrame light_;
+};
+
+double mean_transmission(const RayGrid& grid, const Seen& seen) {
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t k = 0; k < grid.blocked.size(); ++k) {
+    if (grid.blocked[k] > kNearlyThrough) continue;
+    const double weight = seen.at(grid, k);
+    sum += weight * grid.transmission[k];
+    weights += weight;
+  }
+  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 // The numbers of the rays that arrive in all grids.
@@ -63,11 +93,12 @@ double shift_mm(const RayGrid& a, const RayGrid& b) {
 class GhostProbe {
  public:
   // All arguments must outlive this object.
-  GhostProbe(const FramePlan& plan, const StepsByWavelength& steps, const Ghost& ghost, const PlannedLight& light,
+  GhostProbe(const FramePlan& plan, const StepsByWavelength& steps, GhostOfLight pair, const Frame& frame,
              const Context& context)
-      : plan_(plan), steps_(steps), ghost_(ghost), light_(light), context_(context),
-        frame_(light.source, has_axial_symmetry(steps.lens(), ghost)) {
-    for (const PlannedPass& pass : light.passes) lambda_nm_.push_back(pass.lambda_nm);
+      : plan_(plan), steps_(steps), ghost_(plan.ghosts[pair.ghost]), light_(plan.lights[pair.light]), context_(context),
+        frame_(light_.source, has_axial_symmetry(steps.lens(), ghost_)),
+        seen_(plan.adjustments[pair.ghost].placed(frame), frame_) {
+    for (const PlannedPass& pass : light_.passes) lambda_nm_.push_back(pass.lambda_nm);
   }
 
   // nullopt where nothing gets through.
@@ -75,19 +106,34 @@ class GhostProbe {
     const EntranceWindow window = LightWindows(steps_.lens(), light_.source).of(frame_.symmetric);
     const std::optional<Rectangle> pupil = this->pupil(window);
     if (!pupil) return std::nullopt;
-    GhostSpectrum out{WavelengthSamples(lambda_nm_, kRayWavelengths), std::vector<double>(lambda_nm_.size(), 0.0)};
-    std::vector<RayGrid> grids(out.samples.size());
-    const LightRays rays{{0.0, 0.0, window.z_mm}, frame_.source};
-    for (std::size_t k = 0; k < grids.size(); ++k) {
-      PacketPath path(steps_.at(lambda_nm_[out.samples[k]]), ghost_, rays);
-      grids[k].trace(path, iris_, *pupil, kSide, PacketPrecision::Double);
-    }
+    GhostSpectrum out{WavelengthSamples(lambda_nm_, kMostWavelengths), std::vector<double>(lambda_nm_.size(), 0.0)};
+    const std::vector<RayGrid> grids = trace(window.z_mm, *pupil, out.samples);
     add_rays(grids, *pupil, out);
     if (grids.size() > 1) out.shift_mm = shift_mm(grids[0], grids[1]);
     return out;
   }
 
  private:
+  [[nodiscard]] std::vector<RayGrid> trace(double z_mm, const Rectangle& pupil,
+                                           const WavelengthSamples& samples) const {
+    const LightRays rays{{0.0, 0.0, z_mm}, frame_.source};
+    std::vector<RayGrid> grids;
+    std::vector<double> means;
+    double largest = 0.0;
+    for (int predicted = 0; grids.size() < samples.size() && predicted < 2;) {
+      const std::size_t traced = grids.size(), pass = samples[traced];
+      PacketPath path(steps_.at(lambda_nm_[pass]), ghost_, rays);
+      grids.emplace_back().trace(path, iris_, pupil, kSide, PacketPrecision::Double);
+      means.push_back(mean_transmission(grids.back(), seen_));
+      largest = std::max(largest, means.back());
+      if (traced < kFewestWavelengths) continue;
+      const std::vector<double> factors = samples.factors(traced, pass);
+      const double expected = std::inner_product(factors.begin(), factors.end(), means.begin(), 0.0);
+      predicted = std::abs(expected - means.back()) <= kPredictedWithin * largest ? predicted + 1 : 0;
+    }
+    return grids;
+  }
+
   // The largest box of the pupil.
   [[nodiscard]] std::optional<Rectangle> pupil(const EntranceWindow& window) const {
     const auto boxes =
@@ -110,13 +156,14 @@ class GhostProbe {
         const Vec2 steps{static_cast<double>(ray % kSide), static_cast<double>(ray / kSide)};
         const Vec2 at = pupil.low + Vec2{steps.x * step.x, steps.y * step.y};
         out.rays_mm.push_back(frame_.to_lens_frame(Vec2{at.x, mirror * at.y} - middle));
+        out.seen.push_back(seen_.at(grids.front(), ray, mirror));
       }
     }
     out.by_ray.assign(lambda_nm_.size(), std::vector<double>(out.rays_mm.size(), 0.0));
     for (std::size_t pass = 0; pass < lambda_nm_.size(); ++pass) {
       const std::vector<double> factors = out.samples.factors(grids.size(), pass);
       for (std::size_t k = 0; k < grids.size(); ++k) {
-        out.carried[pass] += factors[k] * mean_transmission(grids[k]);
+        out.carried[pass] += factors[k] * mean_transmission(grids[k], seen_);
         for (std::size_t at = 0; at < out.rays_mm.size(); ++at)
           out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at % common.size()]]);
       }
@@ -130,6 +177,7 @@ class GhostProbe {
   const PlannedLight& light_;
   const Context& context_;
   LightFrame frame_;
+  Seen seen_;
   std::vector<double> lambda_nm_;
   IrisShape iris_{Iris{}};
 };
@@ -143,14 +191,16 @@ void set_slopes(std::span<const PlannedPass> passes, const GhostSpectrum& spectr
   double xx = 0.0, xy = 0.0, yy = 0.0, sum = 0.0;
   Vec2 mean;
   for (std::size_t ray = 0; ray < own.size(); ++ray) {
-    sum += own[ray];
-    mean = mean + spectrum.rays_mm[ray] * own[ray];
+    const double light = own[ray] * spectrum.seen[ray];
+    sum += light;
+    mean = mean + spectrum.rays_mm[ray] * light;
   }
   if (!(sum > 0.0)) return;
   mean = mean * (1.0 / sum);
   for (std::size_t ray = 0; ray < own.size(); ++ray) {
     const Vec2 p = (spectrum.rays_mm[ray] - mean) * own[ray];
-    xx += p.x * p.x, xy += p.x * p.y, yy += p.y * p.y;
+    const double seen = spectrum.seen[ray];
+    xx += seen * p.x * p.x, xy += seen * p.x * p.y, yy += seen * p.y * p.y;
   }
   const double determinant = xx * yy - xy * xy;
   if (!(determinant > kLeastSpread * xx * yy)) return;
@@ -160,7 +210,7 @@ void set_slopes(std::span<const PlannedPass> passes, const GhostSpectrum& spectr
     for (std::size_t ray = 0; ray < own.size(); ++ray) {
       double light = -out.gain[c] * own[ray];
       for (std::size_t k = first; k < last; ++k) light += passes[k].gain[c] * spectrum.by_ray[k][ray];
-      const Vec2 p = (spectrum.rays_mm[ray] - mean) * own[ray];
+      const Vec2 p = (spectrum.rays_mm[ray] - mean) * (own[ray] * spectrum.seen[ray]);
       x += p.x * light, y += p.y * light;
     }
     out.slopes.by_x[c] = (yy * x - xy * y) / determinant;
@@ -223,7 +273,7 @@ std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensS
   const bool done = parallel_for(pairs.size(), quiet, [&](std::size_t k) {
     const PlannedLight& light = plan.lights[pairs[k].light];
     if (light.passes.empty()) return;
-    const auto spectrum = GhostProbe(plan, steps, plan.ghosts[pairs[k].ghost], light, quiet).spectrum();
+    const auto spectrum = GhostProbe(plan, steps, pairs[k], frame, quiet).spectrum();
     if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, max_spread_px * frame.pixel_pitch_mm);
   });
   return done ? std::optional(std::move(out)) : std::nullopt;
