@@ -21,11 +21,14 @@ namespace {
 
 // How far the images at the two ends of a band may lie apart at the default error; in proportion to its square, since
 // the band is drawn as sharp as one wavelength, and the squared error of that grows with the distance.
-constexpr double kSpread_px = 1.0, kLeastSpread_px = 0.1;
+constexpr double kSpread_px = 0.9, kLeastSpread_px = 0.1;
 
-double spread_px_for(double error) {
+// How much the light of a band may differ from that of its wavelengths, at the default error, and in proportion to it.
+constexpr double kUnevenness = 0.006;
+
+BandLimits limits_for(double error) {
   const double times = error / AdaptiveOptions{}.error;
-  return std::clamp(kSpread_px * times * times, kLeastSpread_px, kMaxSpread_px);
+  return {std::clamp(kSpread_px * times * times, kLeastSpread_px, kMaxSpread_px), kUnevenness * times};
 }
 
 struct LayerItems {
@@ -146,7 +149,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
                                   const Context& context) {
   const auto start = Clock::now();
   const Frame& frame = planned.settings.frame;
-  const auto plan = with_adaptive_passes(planned.plan, planned.lens, frame, context, spread_px_for(options.error));
+  const auto plan = with_adaptive_passes(planned.plan, planned.lens, frame, context, limits_for(options.error));
   if (!plan) return interrupted();
   StopTransmittances stops(planned.lens, planned.settings, plan->dirt, planned.cache);
   if (!stops.prepare(*plan, context)) return interrupted();

@@ -2,6 +2,7 @@
 #include "render/planning/adaptive_passes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -29,7 +30,7 @@ constexpr float kNearlyThrough = 0.2F;  // the largest RayGrid::blocked of rays 
 // A ghost's transmittance in every pass and the displacement of its image over the spectrum, estimated from a few rays.
 struct GhostSpectrum {
   WavelengthSamples samples;
-  std::vector<double> carried;  // the mean transmittance, one for each pass
+  std::vector<double> carried;  // the light that is seen, one for each pass, relative to each other
   std::vector<Vec2> rays_mm;  // the rays that arrive at all traced wavelengths, relative to middle_mm
   std::vector<double> seen;  // how much each of these rays counts
   std::vector<std::vector<double>> by_ray;  // for each pass, the transmittance of these rays
@@ -37,19 +38,18 @@ struct GhostSpectrum {
   double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
 };
 
-// How much a ray counts by where it arrives: 1 within the frame, and less with the distance from it, since the light of
+// How much light counts by where it arrives: 1 within the frame, and less with the distance from it, since the light of
 // a ghost that is partly outside should be right where it is seen. It changes smoothly as the light moves.
 class Seen {
  public:
   Seen(const Frame& frame, const LightFrame& light) : frame_(frame), light_(light) {}
 
-  // mirror: -1 for the ray's mirror image in the light's meridional plane.
-  [[nodiscard]] double at(const RayGrid& grid, std::size_t ray, double mirror = 1.0) const {
-    constexpr double kFalls = 0.25;  // of the frame's size: the distance at which a ray counts a quarter
-    const Vec2 pixel =
-        frame_.pixel_from_sensor(light_.to_lens_frame({grid.sensor_x_mm[ray], mirror * grid.sensor_y_mm[ray]}));
-    const double x = std::max({-pixel.x, pixel.x - frame_.width, 0.0}),
-                 y = std::max({-pixel.y, pixel.y - frame_.height, 0.0});
+  // A point of the sensor, in the light's frame.
+  [[nodiscard]] double at(Vec2 sensor_mm) const {
+    constexpr double kFalls = 0.25;  // of the frame's size: the distance at which light counts a quarter
+    const Vec2 pixel = frame_.pixel_from_sensor(light_.to_lens_frame(sensor_mm));
+    const double x = std::max({-pixel.x, pixel.x - frame_.width, 0.0});
+    const double y = std::max({-pixel.y, pixel.y - frame_.height, 0.0});
     const double far = (x * x + y * y) / std::pow(kFalls * std::max(frame_.width, frame_.height), 2.0);
     return 1.0 / std::pow(1.0 + far, 2.0);
   }
@@ -59,15 +59,50 @@ class Seen {
   LightFrame light_;
 };
 
+Vec2 sensor_of(const RayGrid& grid, std::size_t ray) { return {grid.sensor_x_mm[ray], grid.sensor_y_mm[ray]}; }
+
 double mean_transmission(const RayGrid& grid, const Seen& seen) {
   double sum = 0.0, weights = 0.0;
   for (std::size_t k = 0; k < grid.blocked.size(); ++k) {
     if (grid.blocked[k] > kNearlyThrough) continue;
-    const double weight = seen.at(grid, k);
+    const double weight = seen.at(sensor_of(grid, k));
     sum += weight * grid.transmission[k];
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : 0.0;
+}
+
+// The light of some cells of a grid that is seen. Between rays, points of the sensor and transmittances are
+// interpolated: the image of a ghost may be so large that few rays arrive in the frame. Its size changes with the
+// wavelength.
+double seen_light(const RayGrid& grid, std::span<const std::size_t> cells, const Seen& seen) {
+  constexpr int kParts = 3;  // of a cell, a side
+  double sum = 0.0;
+  for (const std::size_t cell : cells) {
+    const std::array<std::size_t, 4> corners{cell, cell + 1, cell + kSide, cell + kSide + 1};
+    for (int part = 0; part < kParts * kParts; ++part) {
+      const double u = (part % kParts + 0.5) / kParts, v = (part / kParts + 0.5) / kParts;
+      const std::array weights{(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v};
+      Vec2 at;
+      double transmission = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        at = at + sensor_of(grid, corners[k]) * weights[k];
+        transmission += weights[k] * grid.transmission[corners[k]];
+      }
+      sum += transmission * seen.at(at);
+    }
+  }
+  return sum;
+}
+
+// The first rays of the cells of which all rays arrive in all grids.
+std::vector<std::size_t> common_cells(std::span<const std::size_t> common_rays) {
+  std::vector<std::size_t> cells;
+  const auto arrives = [&](std::size_t ray) { return std::ranges::binary_search(common_rays, ray); };
+  for (const std::size_t ray : common_rays)
+    if (ray % kSide + 1 < kSide && arrives(ray + 1) && arrives(ray + kSide) && arrives(ray + kSide + 1))
+      cells.push_back(ray);
+  return cells;
 }
 
 // The numbers of the rays that arrive in all grids.
@@ -156,14 +191,19 @@ class GhostProbe {
         const Vec2 steps{static_cast<double>(ray % kSide), static_cast<double>(ray / kSide)};
         const Vec2 at = pupil.low + Vec2{steps.x * step.x, steps.y * step.y};
         out.rays_mm.push_back(frame_.to_lens_frame(Vec2{at.x, mirror * at.y} - middle));
-        out.seen.push_back(seen_.at(grids.front(), ray, mirror));
+        const Vec2 sensor_mm = sensor_of(grids.front(), ray);
+        out.seen.push_back(seen_.at({sensor_mm.x, mirror * sensor_mm.y}));
       }
     }
     out.by_ray.assign(lambda_nm_.size(), std::vector<double>(out.rays_mm.size(), 0.0));
+    const std::vector<std::size_t> cells = common_cells(common);
+    std::vector<double> light;
+    for (const RayGrid& grid : grids)
+      light.push_back(cells.empty() ? mean_transmission(grid, seen_) : seen_light(grid, cells, seen_));
     for (std::size_t pass = 0; pass < lambda_nm_.size(); ++pass) {
       const std::vector<double> factors = out.samples.factors(grids.size(), pass);
       for (std::size_t k = 0; k < grids.size(); ++k) {
-        out.carried[pass] += factors[k] * mean_transmission(grids[k], seen_);
+        out.carried[pass] += factors[k] * light[k];
         for (std::size_t at = 0; at < out.rays_mm.size(); ++at)
           out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at % common.size()]]);
       }
@@ -218,9 +258,34 @@ void set_slopes(std::span<const PlannedPass> passes, const GhostSpectrum& spectr
   }
 }
 
+// The difference of a band's light at the rays from that of its passes: the RMS over the channels' largest.
+double unevenness(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t first,
+                  std::size_t last, std::size_t at, const PlannedPass& band) {
+  const Vec2 middle = band.slopes.middle_mm - spectrum.middle_mm;
+  double off = 0.0, whole = 0.0;
+  for (std::size_t ray = 0; ray < spectrum.rays_mm.size(); ++ray) {
+    const Vec2 by = spectrum.rays_mm[ray] - middle;
+    double largest = 0.0, differs = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double light = 0.0;
+      for (std::size_t k = first; k < last; ++k) light += passes[k].gain[c] * spectrum.by_ray[k][ray];
+      const double gain = band.gain[c] + band.slopes.by_x[c] * by.x + band.slopes.by_y[c] * by.y;
+      largest = std::max(largest, std::abs(light));
+      differs = std::max(differs, std::abs(gain * spectrum.by_ray[at][ray] - light));
+    }
+    off += spectrum.seen[ray] * differs * differs;
+    whole += spectrum.seen[ray] * largest * largest;
+  }
+  return whole > 0.0 ? std::sqrt(off / whole) : 0.0;
+}
+
+struct Band {
+  PlannedPass pass;
+  double unevenness = 0.0;
+};
+
 // One pass, at the middle one, for the passes from `first` to the one before `last`.
-PlannedPass joined(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t first,
-                   std::size_t last) {
+Band joined(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t first, std::size_t last) {
   const std::vector<double>& carried = spectrum.carried;
   std::size_t at = (first + last) / 2;
   for (std::size_t k = first; k < last; ++k)
@@ -234,34 +299,38 @@ PlannedPass joined(std::span<const PlannedPass> passes, const GhostSpectrum& spe
     squares += std::pow(passes[k].lambda_nm - out.lambda_nm, 2.0) + passes[k].spread_nm * passes[k].spread_nm;
   }
   out.spread_nm = std::sqrt(squares / static_cast<double>(last - first));
-  if (last - first > 1) set_slopes(passes, spectrum, at, first, last, out);
-  return out;
+  if (last - first == 1) return {out};
+  set_slopes(passes, spectrum, at, first, last, out);
+  return {out, unevenness(passes, spectrum, first, last, at, out)};
 }
 
 // Appends the bands that the passes from `first` to the one before `last` are joined to.
-void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, double max_spread_mm,
-               std::size_t first, std::size_t last, std::vector<PlannedPass>& out) {
+void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, const BandLimits& limits,
+               double pixel_mm, std::size_t first, std::size_t last, std::vector<PlannedPass>& out) {
   const auto& samples = spectrum.samples;
   const double wide_mm = 0.5 * spectrum.shift_mm * std::abs(samples.position(last - 1) - samples.position(first));
-  if (last - first == 1 || wide_mm <= max_spread_mm) return out.push_back(joined(passes, spectrum, first, last));
+  if (last - first == 1 || wide_mm <= limits.spread_px * pixel_mm) {
+    const Band band = joined(passes, spectrum, first, last);
+    if (band.unevenness <= limits.unevenness) return out.push_back(band.pass);
+  }
   const std::size_t middle = (first + last) / 2;
-  add_bands(passes, spectrum, max_spread_mm, first, middle, out);
-  add_bands(passes, spectrum, max_spread_mm, middle, last, out);
+  add_bands(passes, spectrum, limits, pixel_mm, first, middle, out);
+  add_bands(passes, spectrum, limits, pixel_mm, middle, last, out);
 }
 
 std::vector<PlannedPass> passes_for(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum,
-                                    double max_spread_mm) {
+                                    const BandLimits& limits, double pixel_mm) {
   std::vector<PlannedPass> out;
   const std::size_t thirds = std::min(kMinBands, passes.size());
   for (std::size_t k = 0; k < thirds; ++k)
-    add_bands(passes, spectrum, max_spread_mm, k * passes.size() / thirds, (k + 1) * passes.size() / thirds, out);
+    add_bands(passes, spectrum, limits, pixel_mm, k * passes.size() / thirds, (k + 1) * passes.size() / thirds, out);
   return out;
 }
 
 }  // namespace
 
 std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensState& lens, const Frame& frame,
-                                              const Context& context, double max_spread_px) {
+                                              const Context& context, const BandLimits& limits) {
   FramePlan out = plan;
   if (!plan.adapts_passes) return out;
   std::vector<GhostOfLight> pairs;
@@ -274,7 +343,7 @@ std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensS
     const PlannedLight& light = plan.lights[pairs[k].light];
     if (light.passes.empty()) return;
     const auto spectrum = GhostProbe(plan, steps, pairs[k], frame, quiet).spectrum();
-    if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, max_spread_px * frame.pixel_pitch_mm);
+    if (spectrum) out.passes[k] = passes_for(light.passes, *spectrum, limits, frame.pixel_pitch_mm);
   });
   return done ? std::optional(std::move(out)) : std::nullopt;
 }

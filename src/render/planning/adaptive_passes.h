@@ -11,13 +11,18 @@ namespace contrejour::inline internal {
 
 inline constexpr double kMaxSpread_px = 1.5;
 
+// What a band must not exceed, unless it has one pass.
+struct BandLimits {
+  double spread_px = kMaxSpread_px;  // between the images of the ghost at the band's two ends
+  double unevenness = 1e30;  // RMS of its light's difference from its passes', relative to it, with gains as GainSlopes
+};
+
 // Returns the plan with `passes` for each pair. The spectrum begins as three bands with about the same visible light;
-// each is halved until the images of the ghost at the band's two ends lie within `max_spread_px`, or the band has
-// one pass. A band is drawn at its middle pass with the light of all its passes, weighted by the transmittance of a few
-// of the ghost's rays: the flux of each channel is that of all passes to 2 per cent. A plan with a number of
-// wavelengths that the user set is returned unchanged. nullopt when cancelled.
+// each is halved until it is within the limits. A band is drawn at its middle pass with the light of all its passes,
+// weighted by the transmittance of a few of the ghost's rays: the flux of each channel is that of all passes to 2 per
+// cent. A plan with a number of wavelengths that the user set is returned unchanged. nullopt when cancelled.
 [[nodiscard]] std::optional<FramePlan> with_adaptive_passes(const FramePlan& plan, const LensState& lens,
                                                             const Frame& frame, const Context& context,
-                                                            double max_spread_px = kMaxSpread_px);
+                                                            const BandLimits& limits = {});
 
 }  // namespace contrejour::inline internal
