@@ -44,6 +44,7 @@ constexpr double kRoundnessChange = 0.15, kFadeChange = 0.3;  // the latter of t
 void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
   constexpr std::size_t kBounded = 8;  // of curves_of(): place, shape and widths of fades
   const MeasuredGhost& g = problem.flare.ghosts[ghost];
+  const Eigen::VectorXd start = problem.layout.pack(problem.flare);  // within the bounds: a fit begins with what it has
   const double radius = g.half_height(0.0);
   const double path = std::abs(g.centre.coefficients.front()) * problem.flare.s_max;
   const std::array<double, kBounded> most{kBend * path + kBendOfRadius * radius,
@@ -59,14 +60,13 @@ void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquares
     const bool is_skew = curve == 2 || curve == 5;
     for (std::size_t k = is_skew ? 0 : 1; k < terms.terms.size(); ++k) {
       const Eigen::Index at = terms.first + static_cast<Eigen::Index>(k);
-      squares.lower[at] = std::max(squares.lower[at], -most[curve]);
-      squares.upper[at] = std::min(squares.upper[at], most[curve]);
+      squares.lower[at] = std::max(squares.lower[at], std::min(-most[curve], start[at]));
+      squares.upper[at] = std::min(squares.upper[at], std::max(most[curve], start[at]));
     }
   }
   const Eigen::Index centre = problem.layout.curve_terms(ghost, 0, 0.0).first;
-  const double start = g.centre.coefficients.front() * problem.flare.s_max;
-  squares.lower[centre] = std::max(squares.lower[centre], start - most[0]);
-  squares.upper[centre] = std::min(squares.upper[centre], start + most[0]);
+  squares.lower[centre] = std::max(squares.lower[centre], start[centre] - most[0]);
+  squares.upper[centre] = std::min(squares.upper[centre], start[centre] + most[0]);
 }
 
 // A ghost that is fitted in a window stays near its start, because the window shows parts of others, too.
