@@ -17,6 +17,7 @@ namespace {
 constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
 constexpr double kConverged = 2e-4;
 constexpr double kUsualWidth = 320.0;  // of pictures, for which numbers of samples are given
+constexpr double kUsualStations = 49.0;  // the same: that are fitted of 61
 // The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
 // would stand for the background, or for a bright rim. A small ghost's window has no background left.
 constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6;
@@ -141,6 +142,11 @@ int FlareFit::sampling(int every) const {
   return every * std::max(1, static_cast<int>(std::lround(larger * larger)));
 }
 
+int FlareFit::sampling_of_all(int every) const {
+  const double more = static_cast<double>(sweep.stations.size()) / kUsualStations;
+  return sampling(every * std::max(1, static_cast<int>(std::lround(more))));
+}
+
 MeasuredFlare FlareFit::flare_of(std::vector<MeasuredGhost> ghosts) const {
   return {result.flare.name, result.flare.source, result.flare.s_max, result.flare.exposure, std::move(ghosts)};
 }
@@ -178,8 +184,8 @@ void subtract_small_ghosts(FlareFit& fit) {
   const MeasuredFlare small = fit.flare_of(fit.small);
   const std::vector<FitStation> fine = residual_stations(fit.fine, small, fit.context);
   fit.coarse = half_size_stations(fine);
-  fit.coarse_samples = sampled_stations(fit.coarse, fit.sampling(2));
-  fit.fine_samples = sampled_stations(fine, fit.sampling(4));
+  fit.coarse_samples = sampled_stations(fit.coarse, fit.sampling_of_all(2));
+  fit.fine_samples = sampled_stations(fine, fit.sampling_of_all(4));
   fit.held_coarse = half_size_stations(residual_stations(fit.held_fine, small, fit.context));
 }
 
