@@ -244,6 +244,41 @@ TEST_CASE("least squares: steps that the cost's noise hides are taken, and steps
   CHECK(std::abs(least_squares(problem, Eigen::VectorXd::Zero(1), {30, 1e-4, 0.1}).parameters[0]) < 0.2);
 }
 
+TEST_CASE("least squares: parameters that depend on one another move along a bound, and none stops short of it") {
+  // 0.5 d^T H d about (-1, 1.5), which x >= 0 leaves out. With x = 0, y = 1.5 - 0.99. A step cut off at the bound, to
+  // (0, 1.5), would raise the cost from 0.02 to 0.5.
+  const Eigen::Vector2d free_solution(-1.0, 1.5);
+  Eigen::Matrix2d hessian;
+  hessian << 1.0, 0.99, 0.99, 1.0;
+  LeastSquaresProblem problem;
+  problem.equations = [&](const Eigen::VectorXd& at) {
+    const Eigen::VectorXd off = at - free_solution, gradient = hessian * off;
+    return NormalEquations{0.5 * off.dot(gradient), gradient, hessian};
+  };
+  problem.cost = [&](const Eigen::VectorXd& at) { return problem.equations(at).cost; };
+  problem.lower = Eigen::Vector2d(0.0, -10.0);
+  problem.upper = Eigen::Vector2d(10.0, 10.0);
+  const LeastSquaresResult found = least_squares(problem, Eigen::Vector2d(0.5, 0.0), {30, 1e-9});
+  CHECK(found.converged);
+  CHECK(found.parameters[0] == 0.0);
+  CHECK(std::abs(found.parameters[1] - 0.51) < 1e-4);
+}
+
+TEST_CASE("flare problem: a ghost that grows by more than a fit may change it keeps what it has") {
+  MeasuredFlare flare = planted(1, 9);
+  flare.ghosts.resize(1);
+  AngleCurve& height = flare.ghosts[0].half_height;
+  height.coefficients.resize(2);
+  height.coefficients[1] =
+      0.8 * height.coefficients[0] / (flare.s_max * flare.s_max);  // 0.5 of the radius is the bound
+  FlareFit fit;
+  const auto stations = stations_of(flare, 6, 1.0, false);
+  const LevelFit found = optimised(fit, stations, flare, {3.0, 1});
+  FlareProblem problem(stations, flare);
+  CHECK(fit.result.progress.front().cost == problem.cost(problem.layout.pack(flare)));
+  CHECK(found.cost <= fit.result.progress.front().cost);
+}
+
 TEST_CASE("flare problem: the same bits for any number of threads") {
   const MeasuredFlare flare = planted(4, 7);
   const auto stations = stations_of(planted(4, 8), 6, 1.0, true);

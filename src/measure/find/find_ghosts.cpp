@@ -147,15 +147,17 @@ bool is_same(const FoundGhost& a, const FoundGhost& b, double focal_length_px) {
 }
 
 // The best of the strongest candidates once each is refined, which the grid of speeds and radii may have ranked
-// otherwise. Refined candidates that are known do not count: a coarse one beside them leads to them again.
+// otherwise. Refined candidates that are known do not count: a coarse one beside them leads to them again. If all of
+// the strongest do, because a bright ghost is surrounded by candidates that lead to it, the next ones are refined, down
+// to the least contrast.
 template <class Refine>
 FoundGhost best_refined(std::vector<FoundGhost> candidates, std::span<const FoundGhost> excluded, const Refine& refine,
-                        double focal_length_px) {
+                        double least, double focal_length_px) {
   std::ranges::stable_sort(candidates, std::greater(), &FoundGhost::contrast);
-  candidates.resize(std::min(candidates.size(), kRefined));
   FoundGhost best;
-  for (const FoundGhost& candidate : candidates) {
-    const FoundGhost next = refine(candidate);
+  for (std::size_t k = 0; k < candidates.size() && candidates[k].contrast >= least; ++k) {
+    if (k % kRefined == 0 && best.contrast > 0.0) break;
+    const FoundGhost next = refine(candidates[k]);
     const bool known =
         std::ranges::any_of(excluded, [&](const FoundGhost& other) { return is_same(next, other, focal_length_px); });
     if (!known && next.contrast > best.contrast) best = next;
@@ -256,13 +258,14 @@ std::optional<FoundGhost> strongest_disc(std::span<const SearchPicture> all_pict
         if (one.best.contrast > 0.0) candidates.push_back(one.best);
       });
   if (!done) return std::nullopt;
+  const double usual = std::max(usual_contrast(std::move(contrasts)), 1e-6);
   FoundGhost best = best_refined(
       std::move(candidates), excluded,
       [&](const FoundGhost& candidate) { return refined(all_pictures, all, candidate, max_distance_px); },
-      frame.focal_length_px);
+      search.min_contrast * usual, frame.focal_length_px);
   if (!(best.contrast > 0.0)) return std::nullopt;
   best.contrast *= std::sqrt(static_cast<double>(pictures.size()) / static_cast<double>(all_pictures.size()));
-  best.contrast /= std::max(usual_contrast(std::move(contrasts)), 1e-6);
+  best.contrast /= usual;
   if (best.contrast < search.min_contrast) return std::nullopt;
   return best;
 }

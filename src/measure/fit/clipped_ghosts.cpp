@@ -14,6 +14,7 @@ constexpr double kLeastRadius_px = 4.0;  // in half the size: the cut of a small
 constexpr double kStartRadius = 1.2;     // of a ghost's radius: the circle's, which leaves it whole on the axis
 constexpr double kStartDepth = 0.8;  // of a ghost's radius: how far the circle has moved into it at the largest angle
 constexpr std::size_t kClipBands = 2;  // coefficients of each of the circle's curves
+constexpr int kSamples = 2;  // one pixel of this number is fitted in pictures of 320 pixels
 
 // The disc that a ghost is on the axis, moving evenly: without what its outline took on to follow the cut.
 MeasuredGhost plain_disc(MeasuredGhost ghost) {
@@ -56,8 +57,9 @@ OtherResiduals residuals_without(const FlareFit& fit, std::size_t ghost) {
   std::vector<MeasuredGhost> others = fit.flare().ghosts;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(ghost));
   const MeasuredFlare flare = fit.flare_of(std::move(others));
-  return {residual_stations(few_stations(fit.coarse_samples, fit.flare().s_max), flare, fit.context),
-          residual_stations(fit.held_coarse, flare, fit.context)};
+  const std::vector<FitStation> few =
+      sampled_stations(few_stations(fit.coarse, fit.flare().s_max), fit.sampling(kSamples));
+  return {residual_stations(few, flare, fit.context), residual_stations(fit.held_coarse, flare, fit.context)};
 }
 
 // The ghost with the circle that makes the pictures likeliest, or none if that is not likelier by more than chance.

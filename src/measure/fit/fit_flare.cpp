@@ -11,6 +11,7 @@
 
 #include "base/tasks.h"
 #include "measure/find/find_ghosts.h"
+#include "measure/fit/amplitudes.h"
 #include "measure/fit/clipped_ghosts.h"
 #include "measure/fit/flare_fit_state.h"
 #include "measure/fit/ghost_start.h"
@@ -28,7 +29,26 @@ constexpr std::size_t kTogetherEvery = 3;  // ghosts, after which all are fitted
 constexpr double kManySaturated = 0.05;  // of all pixels: so many deserve a warning
 constexpr std::size_t kFewestToHoldOut = 10;  // stations in all, from which on some are held out
 
+double cost_at(const FlareFit& fit, const std::vector<FitStation>& stations, const MeasuredFlare& flare) {
+  FlareProblem problem(stations, flare);
+  problem.huber = fit.options.huber;
+  problem.context = fit.context;
+  return problem.cost(problem.layout.pack(flare));
+}
+
+// Solves the levels of all ghosts for the outlines as they are. New ghosts are fitted by themselves, in windows less
+// their surroundings. If they were added with these levels, they would have light that others have already, and a few
+// steps of all unknowns together would not undo that.
+void share_light(FlareFit& fit, const std::vector<FitStation>& stations) {
+  AmplitudeSettings settings;
+  settings.profile_coefficients = 0;
+  settings.huber = fit.options.huber;
+  MeasuredFlare shared = with_best_amplitudes(stations, fit.flare(), settings, fit.context);
+  if (cost_at(fit, stations, shared) < cost_at(fit, stations, fit.flare())) fit.flare() = std::move(shared);
+}
+
 void fit_together(FlareFit& fit, const std::vector<FitStation>& stations, double huber, int iterations) {
+  share_light(fit, stations);
   const LevelFit l = optimised(fit, stations, fit.flare(), {huber, iterations, true});
   move_all(fit, l.centre_shift);
   fit.flare() = l.flare;
@@ -60,6 +80,7 @@ void find_all(FlareFit& fit) {
     rejected = 0;
     fit.result.found.push_back(*found);
     if (fit.result.found.size() % kTogetherEvery == 1) {
+      share_light(fit, fit.coarse_samples);
       separate_halo(fit, kMedian);
       fit_together(fit, fit.coarse_samples, fit.options.huber, kTogetherIterations);
     }
@@ -116,10 +137,7 @@ MeasuredFlare flare_of_degree(MeasuredFlare flare, int degree) {
 double held_out_cost(const FlareFit& fit, const MeasuredFlare& flare, double centre_shift) {
   std::vector<FitStation> stations = fit.held_coarse;
   for (FitStation& station : stations) move_centre(station, centre_shift);
-  FlareProblem problem(stations, flare);
-  problem.huber = fit.options.huber;
-  problem.context = fit.context;
-  return problem.cost(problem.layout.pack(flare));
+  return cost_at(fit, stations, flare);
 }
 
 // As many coefficients as make the stations held out likeliest. More are tried from what fewer gave.
@@ -197,6 +215,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   if (fit.result.found.empty() && fit.small.empty())
     fit.result.warnings.emplace_back("no ghost was found: the pictures show none that stands out");
   if (context.progress) context.progress(0.5);
+  share_light(fit, fit.coarse_samples);
   separate_halo(fit, kMedian);
   fit_together(fit, fit.coarse_samples, options.huber, kTogetherIterations);
   choose_degree(fit);

@@ -17,6 +17,7 @@ namespace {
 constexpr double kMostShift = 0.05;  // of the optical centre, as a tangent
 constexpr double kConverged = 2e-4;
 constexpr double kUsualWidth = 320.0;  // of pictures, for which numbers of samples are given
+constexpr double kUsualStations = 49.0;  // the same: that are fitted of 61
 // The widest fade outside a ghost, by blur in the picture and by the light's size times the ghost's speed: wider ones
 // would stand for the background, or for a bright rim. A small ghost's window has no background left.
 constexpr double kWidestFade_px = 0.7, kWidestFade = 0.003, kWidestOfSmall = 0.6;
@@ -44,6 +45,7 @@ constexpr double kRoundnessChange = 0.15, kFadeChange = 0.3;  // the latter of t
 void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquaresProblem& squares) {
   constexpr std::size_t kBounded = 8;  // of curves_of(): place, shape and widths of fades
   const MeasuredGhost& g = problem.flare.ghosts[ghost];
+  const Eigen::VectorXd start = problem.layout.pack(problem.flare);  // within the bounds: a fit begins with what it has
   const double radius = g.half_height(0.0);
   const double path = std::abs(g.centre.coefficients.front()) * problem.flare.s_max;
   const std::array<double, kBounded> most{kBend * path + kBendOfRadius * radius,
@@ -59,14 +61,13 @@ void keep_plausible(const FlareProblem& problem, std::size_t ghost, LeastSquares
     const bool is_skew = curve == 2 || curve == 5;
     for (std::size_t k = is_skew ? 0 : 1; k < terms.terms.size(); ++k) {
       const Eigen::Index at = terms.first + static_cast<Eigen::Index>(k);
-      squares.lower[at] = std::max(squares.lower[at], -most[curve]);
-      squares.upper[at] = std::min(squares.upper[at], most[curve]);
+      squares.lower[at] = std::max(squares.lower[at], std::min(-most[curve], start[at]));
+      squares.upper[at] = std::min(squares.upper[at], std::max(most[curve], start[at]));
     }
   }
   const Eigen::Index centre = problem.layout.curve_terms(ghost, 0, 0.0).first;
-  const double start = g.centre.coefficients.front() * problem.flare.s_max;
-  squares.lower[centre] = std::max(squares.lower[centre], start - most[0]);
-  squares.upper[centre] = std::min(squares.upper[centre], start + most[0]);
+  squares.lower[centre] = std::max(squares.lower[centre], start[centre] - most[0]);
+  squares.upper[centre] = std::min(squares.upper[centre], start[centre] + most[0]);
 }
 
 // A ghost that is fitted in a window stays near its start, because the window shows parts of others, too.
@@ -141,6 +142,11 @@ int FlareFit::sampling(int every) const {
   return every * std::max(1, static_cast<int>(std::lround(larger * larger)));
 }
 
+int FlareFit::sampling_of_all(int every) const {
+  const double more = static_cast<double>(sweep.stations.size()) / kUsualStations;
+  return sampling(every * std::max(1, static_cast<int>(std::lround(more))));
+}
+
 MeasuredFlare FlareFit::flare_of(std::vector<MeasuredGhost> ghosts) const {
   return {result.flare.name, result.flare.source, result.flare.s_max, result.flare.exposure, std::move(ghosts)};
 }
@@ -178,8 +184,8 @@ void subtract_small_ghosts(FlareFit& fit) {
   const MeasuredFlare small = fit.flare_of(fit.small);
   const std::vector<FitStation> fine = residual_stations(fit.fine, small, fit.context);
   fit.coarse = half_size_stations(fine);
-  fit.coarse_samples = sampled_stations(fit.coarse, fit.sampling(2));
-  fit.fine_samples = sampled_stations(fine, fit.sampling(4));
+  fit.coarse_samples = sampled_stations(fit.coarse, fit.sampling_of_all(2));
+  fit.fine_samples = sampled_stations(fine, fit.sampling_of_all(4));
   fit.held_coarse = half_size_stations(residual_stations(fit.held_fine, small, fit.context));
 }
 

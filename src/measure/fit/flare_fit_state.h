@@ -36,6 +36,8 @@ struct FlareFit {
   // One pixel of how many is fitted, where it is one of `every` in pictures of 320 pixels: as many pixels of larger
   // pictures, since what the model does not describe, and not noise, limits the fit.
   [[nodiscard]] int sampling(int every) const;
+  // The same for all stations together: a longer sweep has as many pixels in all.
+  [[nodiscard]] int sampling_of_all(int every) const;
   // The flare with these ghosts instead of its own.
   [[nodiscard]] MeasuredFlare flare_of(std::vector<MeasuredGhost> ghosts) const;
 };

@@ -12,22 +12,41 @@ namespace {
 constexpr double kFirstDamping = 1e-3;  // of the Hessian's diagonal
 constexpr int kSmallSteps = 3;  // in a row: one may be small because damping was high
 constexpr double kMaxDamping = 1e12;
+constexpr int kBoundRounds = 6;  // for parameters that stop at a bound
 constexpr double kMinDamping = 1e-12;  // keeps parameters that act alike from drifting apart
-
-// The step under damping of each parameter by its own diagonal entry. The equations are scaled to a diagonal of 1,
-// because units of parameters may differ by many orders of magnitude; what has no influence, or is held, stays.
-Eigen::VectorXd damped_step(const NormalEquations& equations, const Eigen::VectorXd& is_free, double damping) {
-  const Eigen::VectorXd scale = is_free.cwiseProduct(
-      equations.hessian.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; }));
-  Eigen::MatrixXd scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
-  scaled.diagonal() = Eigen::VectorXd::Constant(scale.size(), 1.0 + damping + kMinDamping);
-  const Eigen::VectorXd step = scaled.ldlt().solve(-scale.cwiseProduct(equations.gradient));
-  return scale.cwiseProduct(step);
-}
 
 Eigen::VectorXd within_bounds(const LeastSquaresProblem& problem, Eigen::VectorXd at) {
   if (problem.lower.size() == at.size()) at = at.cwiseMax(problem.lower).cwiseMin(problem.upper).eval();
   return at;
+}
+
+// The step under damping of each parameter by its own diagonal entry, which ends at the bounds. The equations are
+// scaled to a diagonal of 1, because units of parameters may differ by many orders of magnitude; what has no influence,
+// or is held, stays. Parameters that would pass a bound stop at it, and the others are solved anew for that: if the
+// step were merely cut off, parameters that depend on one another would go astray, and a fit would seem to have
+// converged.
+Eigen::VectorXd damped_step(const LeastSquaresProblem& problem, const NormalEquations& equations,
+                            const Eigen::VectorXd& at, Eigen::VectorXd is_free, double damping) {
+  Eigen::VectorXd stopped = Eigen::VectorXd::Zero(at.size());
+  Eigen::VectorXd step = stopped;
+  for (int round = 0; round < kBoundRounds; ++round) {
+    const Eigen::VectorXd scale = is_free.cwiseProduct(
+        equations.hessian.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; }));
+    Eigen::MatrixXd scaled = scale.asDiagonal() * equations.hessian * scale.asDiagonal();
+    scaled.diagonal() = Eigen::VectorXd::Constant(scale.size(), 1.0 + damping + kMinDamping);
+    const Eigen::VectorXd gradient = equations.gradient + equations.hessian * stopped;
+    step = stopped + scale.cwiseProduct(scaled.ldlt().solve(-scale.cwiseProduct(gradient)));
+    const Eigen::VectorXd within = within_bounds(problem, at + step) - at;
+    bool passes = false;
+    for (Eigen::Index k = 0; k < at.size(); ++k) {
+      if (is_free[k] == 0.0 || at[k] + step[k] == at[k] + within[k]) continue;
+      passes = true;
+      is_free[k] = 0.0;
+      stopped[k] = within[k];
+    }
+    if (!passes) break;
+  }
+  return within_bounds(problem, at + step) - at;
 }
 
 // 0 for parameters at a bound beyond which the cost would fall, else 1.
@@ -58,11 +77,16 @@ LeastSquaresResult least_squares(const LeastSquaresProblem& problem, Eigen::Vect
   double damping = kFirstDamping, growth = 2.0;
   int small_steps = 0;
   while (result.iterations < settings.max_iterations && damping < kMaxDamping) {
-    ++result.iterations;
     const Eigen::VectorXd is_free = free_parameters(problem, result.parameters, equations.gradient);
-    const Eigen::VectorXd next = within_bounds(problem, result.parameters + damped_step(equations, is_free, damping));
-    const Eigen::VectorXd step = next - result.parameters;
+    const Eigen::VectorXd step = damped_step(problem, equations, result.parameters, is_free, damping);
     const double predicted = -(equations.gradient.dot(step) + 0.5 * step.dot(equations.hessian * step));
+    if (predicted < 0.0) {  // bounds turned the step uphill; a shorter one goes downhill
+      damping *= growth;
+      growth *= 2.0;
+      continue;
+    }
+    ++result.iterations;
+    const Eigen::VectorXd next = result.parameters + step;
     NormalEquations trial = problem.equations(next);
     const double decrease = equations.cost - trial.cost;
     const bool may_gain = predicted > 0.0 && predicted < 2.0 * settings.cost_noise;

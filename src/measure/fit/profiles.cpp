@@ -69,8 +69,8 @@ struct ProfileFit {
   std::optional<double> least;  // cost at the stations held out
 
   explicit ProfileFit(FlareFit& state)
-      : fit(state), stations(sampled_stations(state.fine, state.sampling(kLevelSamples))),
-        held(sampled_stations(state.held_fine, state.sampling(kLevelSamples))) {
+      : fit(state), stations(sampled_stations(state.fine, state.sampling_of_all(kLevelSamples))),
+        held(sampled_stations(state.held_fine, state.sampling_of_all(kLevelSamples))) {
     settings.huber = fit.options.huber;
     if (!held.empty()) least = held_cost(fit, held, fit.flare(), 0.0);
   }
@@ -111,7 +111,7 @@ bool choose_profiles(ProfileFit& all) {
 // All outlines together, with the optical centre, then the levels once more.
 void fit_shapes(ProfileFit& all) {
   FlareFit& fit = all.fit;
-  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, fit.sampling(kShapeSamples), fit.flare()),
+  const LevelFit shapes = optimised(fit, sampled_stations(fit.fine, fit.sampling_of_all(kShapeSamples), fit.flare()),
                                     fit.flare(), {fit.options.huber, kShapeIterations, true});
   std::vector<FitStation> moved = all.stations;
   for (FitStation& station : moved) move_centre(station, shapes.centre_shift);
