@@ -249,7 +249,12 @@ struct GhostScore {
 GhostScore print_ghosts(const TrueGhosts& ghosts, const MeasuredFlare& flare, const Comparison& at) {
   const std::vector<FittedGhost> fitted = fitted_ghosts(flare, at);
   const FlareLight light{{at.s, 0.0}, {1.0, 1.0, 1.0}};
-  const Image all = render_measured(flare, std::span(&light, 1), at.tangents).value();
+  const auto drawn = render_measured(flare, std::span(&light, 1), at.tangents);
+  if (!drawn) {
+    std::printf("%s\n", drawn.error().to_string().c_str());
+    return {};
+  }
+  const Image& all = *drawn;
   const double offset = offset_of(ghosts.all, all);
   GhostScore score;
   score.brightest = std::min(ghosts.listed.size(), kBrightest);

@@ -44,7 +44,8 @@ void share_light(FlareFit& fit, const std::vector<FitStation>& stations) {
   settings.profile_coefficients = 0;
   settings.huber = fit.options.huber;
   MeasuredFlare shared = with_best_amplitudes(stations, fit.flare(), settings, fit.context);
-  if (cost_at(fit, stations, shared) < cost_at(fit, stations, fit.flare())) fit.flare() = std::move(shared);
+  if (check_flare(shared) && cost_at(fit, stations, shared) < cost_at(fit, stations, fit.flare()))
+    fit.flare() = std::move(shared);
 }
 
 void fit_together(FlareFit& fit, const std::vector<FitStation>& stations, double huber, int iterations) {
@@ -185,6 +186,15 @@ void drop_veil_without_ghosts(FlareFit& fit) {
   if (fit.result.found.empty()) fit.flare().ghosts.clear();
 }
 
+// A flare with values beyond its limits could neither be drawn nor read again.
+void drop_unbounded(FlareFit& fit) {
+  const std::size_t dropped = std::erase_if(
+      fit.flare().ghosts, [&](const MeasuredGhost& ghost) { return !check_flare(fit.flare_of({ghost})); });
+  if (dropped > 0)
+    fit.result.warnings.push_back(
+        fmt::format("{} fitted ghosts had values beyond all limits and were left out", dropped));
+}
+
 }  // namespace
 
 Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geometry, const FlareFitOptions& options,
@@ -227,6 +237,7 @@ Result<FittedFlare> fit_flare(const FlareSweep& sweep, const SweepGeometry& geom
   if (context.cancelled()) return interrupted();
   const TangentFrame& frame = fit.fine.front().frame.pixels;
   fit.flare().half_field = {0.5 * frame.width / frame.focal_length_px, 0.5 * frame.height / frame.focal_length_px};
+  drop_unbounded(fit);
   drop_veil_without_ghosts(fit);
   judge(fit);
   if (context.progress) context.progress(1.0);
