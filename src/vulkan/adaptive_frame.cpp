@@ -13,7 +13,7 @@ namespace {
 // The part of the squared error that the rays' spacing may spend; the rest is for what the measures of coarse cells do
 // not see. It was chosen, not derived: the papers' lenses came out at 50 dB and better with it (docs/gpu.md).
 constexpr double kBudgetShare = 0.25;
-// What is fetched: the counters, then the pixels.
+// The counters are fetched before the pixels.
 constexpr std::uint64_t kCountersBytes = sizeof(std::uint32_t) * kCounters;
 constexpr std::int32_t kRasterTile = 16;  // TILE_SIDE of adaptive/raster.comp
 
@@ -35,7 +35,7 @@ std::uint32_t levels_of(std::uint32_t side) {
   return levels;
 }
 
-// What a tracer of all paths must handle.
+// The surfaces that a tracer of all paths must handle.
 PathGeometry geometry_of(const DevicePaths& paths) {
   PathGeometry most = PathGeometry::Spheres;
   for (const PacketPath& path : paths.paths) most = std::max(most, path.geometry());
@@ -188,13 +188,14 @@ void AdaptiveFrame::need_buffers() {
   parameters_.cut_capacity = narrow(capacity_.cut_cells);
 }
 
-// What the search counts into.
+// Clears the buffers that the search counts into.
 void AdaptiveFrame::clear_search() {
   device_.clear(Slot::Found, 0, kFoundBytes * kMostLevels * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
   device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }
 
+// Clears the buffers that the polygons and the lists of tiles count into.
 void AdaptiveFrame::clear_lists() {
   device_.clear(Slot::Sums, kHistogramBytes, sums_bytes() - kHistogramBytes);
   device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kRayBlocks);

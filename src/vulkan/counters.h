@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shaders count, and the dispatches whose size they decide, as shaders/counts.glsl.
+// The counters of the shaders, and the dispatches whose size they decide, as in shaders/counts.glsl.
 #pragma once
 
 #include <cstdint>

@@ -62,6 +62,7 @@ GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJo
   const double most = most_light(job.grids);
   if (most > 0.0) fixed_point_ = kFixedPoint / most;
   const std::uint64_t range = info.storage_range_bytes;
+  kept_.tile_entries = std::min(kept_.tile_entries, range / sizeof(std::uint32_t));
   limits_.rays = std::min(limits_.rays, range / std::max(kRayBytes, kCrossingBytes));
   limits_.large_polygons =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_polygons, range / kLargeBytes));

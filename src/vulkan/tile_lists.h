@@ -27,7 +27,7 @@ struct TileLists {
   [[nodiscard]] std::uint64_t most_tasks() const { return tile_count() + entry_capacity / kListPart + 1; }
 };
 
-// Of a picture; its flags and capacities are the caller's.
+// The lists of a picture's tiles; the caller sets flags and capacities.
 [[nodiscard]] TileLists tile_lists_of(std::int32_t width, std::int32_t height, std::int32_t tile_side);
 void need_buffers(DeviceContext& device, const TileLists& lists);
 // Makes the lists empty; their counters are the caller's.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reduces a plan's wavelengths to as few as each ghost needs, for methods that draw every wavelength by itself (bundle,
-// tiled).
+// Reduces a plan's wavelengths to as few as each ghost needs, for methods that draw every wavelength by itself
+// (bundle, tiled, adaptive on a device).
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace contrejour::inline internal {
 
 inline constexpr double kMaxSpread_px = 1.5;
 
-// What a band must not exceed, unless it has one pass.
+// Limits of a band, which is halved beyond them unless it has one pass.
 struct BandLimits {
   double spread_px = kMaxSpread_px;  // between the images of the ghost at the band's two ends
   double unevenness = 1e30;  // RMS of its light's difference from its passes', relative to it, with gains as GainSlopes

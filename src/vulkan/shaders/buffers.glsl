@@ -22,7 +22,7 @@ layout(std430, set = 0, binding = 22) buffer TileFirst { uint tile_first[]; };  
 layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };    // polygons by tile
 layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
 layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
-layout(std430, set = 0, binding = 28) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/own_list.glsl
+layout(std430, set = 0, binding = 28) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/task.glsl
 #ifdef DOUBLE
 layout(std430, set = 0, binding = 12) readonly buffer Doubles { double doubles[]; };  // of paths, in double
 #define real double

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shaders count, and the dispatches whose size the device decides: the words and bits of src/vulkan/counters.h.
+// The counters of the shaders, and the dispatches whose size they decide: the words and bits of src/vulkan/counters.h.
 // Included after buffers.glsl.
 #define COUNT_POLYGONS 0
 #define COUNT_CORNERS 1

@@ -3,7 +3,7 @@
 // does not matter.
 #include "sums.glsl"
 #include "lists/record.glsl"
-#include "lists/own_list.glsl"
+#include "lists/task.glsl"
 
 uint pixel_sums[6];
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -69,4 +70,14 @@ TEST_CASE("lines along a row, along a column and without a length") {
   CHECK(parts_of({2.5, 7.5}, {2.5, 7.5}, 8, 8).front().fraction == 1.0);
   CHECK(parts_of({2.5, 8.5}, {6.5, 8.5}, 8, 8).empty());
   CHECK(parts_of({-5.0, 3.0}, {-1.0, 4.0}, 8, 8).empty());
+}
+
+TEST_CASE("lines of any length, and what is no line, come to an end") {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(),
+                   kInfinite = std::numeric_limits<double>::infinity();
+  for (const double far : {1e6, 1e12, 1e18, 1e300, kNone, kInfinite})
+    for (const Vec2 to : {Vec2{far, 3.0}, Vec2{far, far}, Vec2{far, -far}})
+      for (const Vec2 from : {Vec2{1.5, 2.5}, Vec2{-far, 2.5}, Vec2{-far, -far}})
+        CHECK(parts_of(from, to, 8, 8).size() <= 18);
+  CHECK(sum_of(parts_of({0.0, 2.5}, {1e6, 2.5}, 8, 8)) == doctest::Approx(8e-6));
 }

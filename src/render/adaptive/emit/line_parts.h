@@ -44,7 +44,9 @@ void for_each_pixel_part(Vec2 from, Vec2 to, int width, int height, const Visit&
   if (by == Vec2{}) return visit(from, 1.0);
   x.begin(from.x, by.x, at);
   y.begin(from.y, by.y, at);
-  while (at < last) {
+  // A line crosses no more pixels than this. Without the bound, one that is far longer than the frame would never end,
+  // since a pixel is then less of it than rounding resolves.
+  for (int left = width + height + 2; left > 0 && at < last; --left) {
     LineAxis& nearer = x.next < y.next ? x : y;
     const double end = std::min(nearer.next, last);
     if (end - at > kLeastPart) visit(from + by * (0.5 * (at + end)), end - at);

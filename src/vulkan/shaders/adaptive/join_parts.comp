@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
-#include "../lists/own_list.glsl"
+#include "../lists/task.glsl"
 #include "../sums.glsl"
 #include "parts.glsl"
 

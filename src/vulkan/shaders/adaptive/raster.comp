@@ -6,7 +6,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "../lists/record.glsl"
-#include "../lists/own_list.glsl"
+#include "../lists/task.glsl"
 #include "../coverage.glsl"
 #include "../sums.glsl"
 #include "parts.glsl"
@@ -327,7 +327,7 @@ uvec2 plane_words(uint channel, uvec2 at) {
   return add_words(uvec2(plane_sums[k], plane_sums[k + 1u]), add_words(by_x, by_y));
 }
 
-// Of a tile that is drawn in parts, whose sums are exact: join_parts.comp turns them into pixels.
+// Adds a part of a tile to the tile's sums, which are exact; join_parts.comp turns them into pixels.
 void add_part(uint split) {
   uint t = gl_LocalInvocationIndex, at = SPLIT_SUMS + TILE_WORDS * (split - 1u) + 6u * t;
   for (uint c = 0u; c < 3u; ++c) {
