@@ -60,8 +60,9 @@ struct ShadeWeights {
 // Means over pixels of this width, > 0, whose centres are at a distance from the border.
 [[nodiscard]] CONTREJOUR_API ShadeWeights shade_weights(const GhostShade& shade, double distance, double pixel_width);
 
-// Derivatives of both weights with respect to the distance, and to the shade's members in their order.
+// Both weights, and their derivatives with respect to the distance, and to the shade's members in their order.
 struct ShadeDerivatives {
+  ShadeWeights weights;
   ShadeWeights by_distance;
   std::array<ShadeWeights, 4> by_shade;
 };

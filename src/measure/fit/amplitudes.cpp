@@ -29,6 +29,13 @@ bool has_room_for_profile(const MeasuredGhost& ghost, const TangentFrame& frame,
          radius_px < kWidestProfile * std::hypot(frame.width, frame.height);
 }
 
+// A term without a direction changes most with the angle, where a rim or a core goes through a focus.
+std::size_t coefficients_of(std::size_t term, const AmplitudeSettings& settings) {
+  return profile_term(term).harmonic == 0
+             ? settings.profile_coefficients
+             : std::min(settings.profile_coefficients, settings.most_directed_coefficients);
+}
+
 Levels levels_of(const MeasuredFlare& flare, const TangentFrame& frame, const AmplitudeSettings& settings) {
   Levels levels;
   const auto add = [&](std::size_t ghost, std::size_t kind, Parity parity, std::size_t count) {
@@ -42,7 +49,7 @@ Levels levels_of(const MeasuredFlare& flare, const TangentFrame& frame, const Am
     const bool profile = has_room_for_profile(ghost, frame, settings);
     add(g, kInside, ghost.inside[0].parity, profile ? 0 : ghost.inside[0].coefficients.size());
     for (std::size_t k = 0; k < kProfileTerms && profile; ++k)
-      add(g, kFirstTerm + k, profile_parity(k), settings.profile_coefficients);
+      add(g, kFirstTerm + k, profile_parity(k), coefficients_of(k, settings));
   }
   levels.first_of_ghost.push_back(levels.all.size());
   return levels;
@@ -153,7 +160,7 @@ void add_smoothness(const Levels& levels, const AmplitudeSettings& settings, Eig
     for (std::size_t k = 0; k < kProfileTerms; ++k) {
       const ProfileTerm term = profile_term(k);
       const bool has_inner = term.ring > (term.harmonic == 0 ? 0U : 1U);
-      for (std::size_t i = 0; i < settings.profile_coefficients; ++i) {
+      for (std::size_t i = 0; i < levels.all[first + k].count; ++i) {
         const Eigen::Index at = levels.all[first + k].first + static_cast<Eigen::Index>(i);
         matrix(at, at) += kProfileRidge * weight;
         if (term.harmonic == 0 && term.ring == 0) continue;

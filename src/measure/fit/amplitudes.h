@@ -14,6 +14,7 @@ namespace contrejour::inline internal {
 struct AmplitudeSettings {
   // Coefficients of each curve of a profile. A ghost of which a picture shows fewer than `least_radius_px` has none.
   std::size_t profile_coefficients = 2;
+  std::size_t most_directed_coefficients = 3;  // of curves of terms with a direction, which have as many or fewer
   double least_radius_px = 4.0;
   double smoothness = 0.01;  // how much neighbouring rings are held to one another, over what a ring's pixels weigh
   double huber = 3.0;

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "base/tasks.h"
+#include "measure/fit/pixel_equations.h"
 #include "measure/model/flare_curves.h"
 
 namespace contrejour::inline internal {
 namespace {
 
 constexpr std::size_t kChannels = 3;
-constexpr auto kCurves = static_cast<Eigen::Index>(kGhostCurves);
 
 struct GhostInStation {
   std::size_t index = 0;  // of the flare's ghosts
@@ -93,24 +94,6 @@ double loss_of(const std::vector<double>& model, const FitStation& station, doub
   return loss;
 }
 
-// Derivatives of a pixel's value in one channel with respect to the values of all curves of a ghost.
-using CurveGradient = Eigen::Matrix<double, kCurves, 1>;
-
-CurveGradient gradient_of(const GhostInStation& ghost, const GhostPixel& pixel, std::size_t channel, double area) {
-  CurveGradient gradient = CurveGradient::Zero();
-  for (std::size_t k = 0; k < kShapeCurves; ++k) {
-    gradient[static_cast<Eigen::Index>(k)] =
-        area * (ghost.at.border[channel] * pixel.by_shape[k].border + pixel.inside[channel] * pixel.by_shape[k].inside);
-  }
-  for (std::size_t k = 0; k < kPlaceCurves; ++k) {
-    gradient[static_cast<Eigen::Index>(k)] += area * pixel.weights.inside * pixel.inside_by_shape[k][channel];
-  }
-  gradient[static_cast<Eigen::Index>(kShapeCurves + channel)] = area * ghost.at.presence * pixel.weights.border;
-  gradient[static_cast<Eigen::Index>(kShapeCurves + kChannels + channel)] =
-      area * ghost.at.presence * pixel.weights.inside;
-  return gradient;
-}
-
 // A ghost at a pixel: near its border, inside with a profile, or (neither) where its shade is flat.
 struct GhostAtPixel {
   std::size_t ghost = 0;  // of the station's
@@ -118,93 +101,91 @@ struct GhostAtPixel {
   const InnerPixel* inner = nullptr;
 };
 
-// The derivatives of a ghost at a pixel with respect to some of its curves, which follow one another.
-struct PixelTerm {
-  Eigen::Index first = 0;  // their first row in the equations
-  Eigen::Index size = 0;
-  CurveGradient gradient;  // its first `size` values
+void set_border_term(const GhostInStation& ghost, const GhostPixel& pixel, double area, PixelTerm& term) {
+  term.shape = kShapeCurves;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    std::array<double, kShapeCurves>& by_shape = term.by_shape[c];
+    const double border = area * ghost.at.border[c], inside = area * pixel.inside[c];
+    for (std::size_t k = 0; k < kShapeCurves; ++k)
+      by_shape[k] = border * pixel.by_shape[k].border + inside * pixel.by_shape[k].inside;
+    for (std::size_t k = 0; k < kPlaceCurves; ++k)
+      by_shape[k] += area * pixel.weights.inside * pixel.inside_by_shape[k][c];
+  }
+  term.border = area * ghost.at.presence * pixel.weights.border;
+  term.inside = area * ghost.at.presence * pixel.weights.inside;
+}
+
+void set_inner_term(const InnerPixel& pixel, double area, PixelTerm& term) {
+  term.shape = kPlaceCurves;
+  for (std::size_t c = 0; c < kChannels; ++c)
+    for (std::size_t k = 0; k < kPlaceCurves; ++k) term.by_shape[c][k] = area * pixel.inside_by_shape[k][c];
+  term.border = term.inside = 0.0;
+}
+
+void set_term(const std::vector<GhostInStation>& ghosts, const GhostAtPixel& at, double area, PixelTerm& term) {
+  const GhostInStation& ghost = ghosts[at.ghost];
+  term.ghost = at.ghost;
+  if (at.near_border) return set_border_term(ghost, *at.near_border, area, term);
+  if (at.inner) return set_inner_term(*at.inner, area, term);
+  term.shape = 0;
+  term.border = 0.0;
+  term.inside = area * ghost.at.presence;
+}
+
+// The ghosts at all pixels, pixel after pixel and in ascending order.
+struct GhostsAtPixels {
+  std::vector<std::size_t> first;  // of each pixel, and the end
+  std::vector<GhostAtPixel> ghosts;
 };
 
-// The compiler knows the sizes, which is several times as fast where profiles of many ghosts overlap.
-template <int kRows, int kColumns>
-void add_outer(const PixelTerm& a, const PixelTerm& b, double w, Eigen::MatrixXd& hessian) {
-  for (int column = 0; column < kColumns; ++column) {
-    hessian.col(b.first + column).segment<kRows>(a.first) += (w * b.gradient[column]) * a.gradient.head<kRows>();
-  }
+GhostsAtPixels ghosts_at_pixels(const std::vector<GhostInStation>& ghosts, std::size_t pixels) {
+  const auto for_each = [&](const auto& act) {
+    for (std::size_t g = 0; g < ghosts.size(); ++g) {
+      for (const GhostPixel& pixel : ghosts[g].pixels.near_border) act(pixel.index, GhostAtPixel{g, &pixel, nullptr});
+      for (const InnerPixel& pixel : ghosts[g].pixels.inner) act(pixel.index, GhostAtPixel{g, nullptr, &pixel});
+      for (const std::uint32_t index : ghosts[g].pixels.flat) act(index, GhostAtPixel{g, nullptr, nullptr});
+    }
+  };
+  GhostsAtPixels all;
+  all.first.resize(pixels + 1);
+  for_each([&](std::uint32_t index, const GhostAtPixel& /*at*/) { ++all.first[index + 1]; });
+  std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
+  all.ghosts.resize(all.first.back());
+  std::vector<std::size_t> next(all.first.begin(), all.first.end() - 1);
+  for_each([&](std::uint32_t index, const GhostAtPixel& at) { all.ghosts[next[index]++] = at; });
+  return all;
 }
 
-void add_pair(const PixelTerm& a, const PixelTerm& b, double w, Eigen::MatrixXd& hessian) {
-  constexpr auto kAll = static_cast<int>(kCurves), kPlace = static_cast<int>(kPlaceCurves);
-  if (a.size == kAll && b.size == kAll) return add_outer<kAll, kAll>(a, b, w, hessian);
-  if (a.size == kAll && b.size == kPlace) return add_outer<kAll, kPlace>(a, b, w, hessian);
-  if (a.size == kPlace && b.size == kAll) return add_outer<kPlace, kAll>(a, b, w, hessian);
-  if (a.size == kPlace && b.size == kPlace) return add_outer<kPlace, kPlace>(a, b, w, hessian);
-  for (Eigen::Index column = 0; column < b.size; ++column) {
-    const double weighted = w * b.gradient[column];
-    for (Eigen::Index row = 0; row < a.size; ++row)
-      hessian(a.first + row, b.first + column) += weighted * a.gradient[row];
+// A pixel's channels from an index on. Channels without weight may have any value.
+PixelResidual residual_of(const std::vector<double>& model, const FitStation& station, std::size_t first,
+                          double huber) {
+  PixelResidual residual;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    const auto weight = static_cast<double>(station.weight.pixels[first + c]);
+    if (weight == 0.0) continue;
+    const double difference = model[first + c] - static_cast<double>(station.rate.pixels[first + c]);
+    residual.weight[c] = weight * robust_term(difference, weight, huber).factor;
+    residual.weighted[c] = residual.weight[c] * difference;
   }
-}
-
-PixelTerm term_of(const std::vector<GhostInStation>& ghosts, const GhostAtPixel& at, std::size_t channel, double area) {
-  const GhostInStation& ghost = ghosts[at.ghost];
-  PixelTerm term;
-  term.first = kCurves * static_cast<Eigen::Index>(at.ghost);
-  if (at.near_border) {
-    term.size = kCurves;
-    term.gradient = gradient_of(ghost, *at.near_border, channel, area);
-  } else if (at.inner) {
-    term.size = kPlaceCurves;
-    for (std::size_t k = 0; k < kPlaceCurves; ++k)
-      term.gradient[static_cast<Eigen::Index>(k)] = area * at.inner->inside_by_shape[k][channel];
-  } else {
-    term.first += static_cast<Eigen::Index>(kShapeCurves + kChannels + channel);
-    term.size = 1;
-    term.gradient[0] = area * ghost.at.presence;
-  }
-  return term;
-}
-
-void add_terms(const std::vector<PixelTerm>& terms, double w, double difference, NormalEquations& equations) {
-  for (std::size_t a = 0; a < terms.size(); ++a) {
-    for (Eigen::Index k = 0; k < terms[a].size; ++k)
-      equations.gradient[terms[a].first + k] += w * difference * terms[a].gradient[k];
-    for (std::size_t b = a; b < terms.size(); ++b) add_pair(terms[a], terms[b], w, equations.hessian);
-  }
-}
-
-std::vector<std::vector<GhostAtPixel>> ghosts_at_pixels(const std::vector<GhostInStation>& ghosts, std::size_t pixels) {
-  std::vector<std::vector<GhostAtPixel>> at_pixel(pixels);
-  for (std::size_t g = 0; g < ghosts.size(); ++g) {
-    for (const GhostPixel& pixel : ghosts[g].pixels.near_border) at_pixel[pixel.index].push_back({g, &pixel, nullptr});
-    for (const InnerPixel& pixel : ghosts[g].pixels.inner) at_pixel[pixel.index].push_back({g, nullptr, &pixel});
-    for (const std::uint32_t index : ghosts[g].pixels.flat) at_pixel[index].push_back({g, nullptr, nullptr});
-  }
-  return at_pixel;
+  return residual;
 }
 
 // Normal equations of one station for the values of the curves of its ghosts, in the order of `ghosts`.
 NormalEquations station_equations(const std::vector<GhostInStation>& ghosts, const FitStation& station, double huber) {
-  const auto size = kCurves * static_cast<Eigen::Index>(ghosts.size());
   const std::vector<double> model = model_of(ghosts, station);
-  NormalEquations equations{loss_of(model, station, huber), Eigen::VectorXd::Zero(size),
-                            Eigen::MatrixXd::Zero(size, size)};
   const double area = area_of_pixel(station);
-  const auto at_pixel = ghosts_at_pixels(ghosts, model.size() / kChannels);
-  std::vector<PixelTerm> terms;
-  for (std::size_t index = 0; index < at_pixel.size(); ++index) {
-    for (std::size_t c = 0; c < kChannels && !at_pixel[index].empty(); ++c) {
-      const std::size_t k = kChannels * index + c;
-      const auto weight = static_cast<double>(station.weight.pixels[k]);
-      if (weight == 0.0) continue;
-      const double difference = model[k] - static_cast<double>(station.rate.pixels[k]);
-      const double w = weight * robust_term(difference, weight, huber).factor;
-      terms.clear();
-      for (const GhostAtPixel& at : at_pixel[index]) terms.push_back(term_of(ghosts, at, c, area));
-      add_terms(terms, w, difference, equations);
-    }
+  const GhostsAtPixels at_pixels = ghosts_at_pixels(ghosts, model.size() / kChannels);
+  PixelEquations equations(ghosts.size());
+  std::vector<PixelTerm> terms(ghosts.size());
+  for (std::size_t index = 0; index + 1 < at_pixels.first.size(); ++index) {
+    const std::size_t first = at_pixels.first[index], count = at_pixels.first[index + 1] - first;
+    if (count == 0) continue;
+    const PixelResidual residual = residual_of(model, station, kChannels * index, huber);
+    if (residual.weight == std::array<double, kChannels>{}) continue;
+    for (std::size_t k = 0; k < count; ++k) set_term(ghosts, at_pixels.ghosts[first + k], area, terms[k]);
+    equations.add({terms.data(), count}, residual);
   }
-  return equations;
+  return {loss_of(model, station, huber), equations.gradient(), equations.hessian()};
 }
 
 // How a curve's value at a station depends on the unknowns.

@@ -6,6 +6,7 @@
 
 #include "measure/model/flare_curves.h"
 #include "measure/model/outline_cubic.h"
+#include "measure/model/outline_distance.h"
 #include "measure/model/pixel_samples.h"
 
 namespace contrejour::inline internal {
@@ -21,16 +22,22 @@ PixelRange range_of(double low, double high, int size) {
   return {within(std::floor(low)), within(std::ceil(high))};
 }
 
-// Derivatives with respect to centre, half width, skew, half height, roundness, its skew, widths and slopes of the
-// shade, and the circle that cuts the outline. A half width widens both sides, a skew moves the left side inwards and
-// the right one outwards; a fade is its width times slope + 1.
-std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, const OutlinePoint& nearest,
-                                                   double pixel) {
+struct PixelShade {
+  ShadeWeights weights;
+  std::array<ShadeWeights, kShapeCurves> by_shape{};
+};
+
+// The weights, and their derivatives with respect to centre, half width, skew, half height, roundness, its skew, widths
+// and slopes of the shade, and the circle that cuts the outline. A half width widens both sides, a skew moves the left
+// side inwards and the right one outwards; a fade is its width times slope + 1.
+PixelShade pixel_shade(const GhostAtAngle& ghost, const OutlinePoint& nearest, double pixel, bool with_derivatives) {
+  if (!with_derivatives) return {shade_weights(ghost.shade, nearest.distance, pixel), {}};
   const auto outline = distance_gradient(ghost.outline, nearest);
   const ShadeDerivatives shade = shade_derivatives(ghost.shade, nearest.distance, pixel);
   const std::array<double, 6> distances{outline[0], outline[1] + outline[2], outline[2] - outline[1],
                                         outline[3], outline[4] + outline[5], outline[5] - outline[4]};
-  std::array<ShadeWeights, kShapeCurves> by_shape{};
+  PixelShade all{shade.weights, {}};
+  auto& by_shape = all.by_shape;
   for (std::size_t k = 0; k < distances.size(); ++k) {
     by_shape[k] = {shade.by_distance.border * distances[k], shade.by_distance.inside * distances[k]};
   }
@@ -45,7 +52,7 @@ std::array<ShadeWeights, kShapeCurves> by_shape_of(const GhostAtAngle& ghost, co
     const double distance = outline[kCubicParameters + k - kClipCentre];
     by_shape[k] = {shade.by_distance.border * distance, shade.by_distance.inside * distance};
   }
-  return by_shape;
+  return all;
 }
 
 // A pixel of a ghost with a profile: the level there, and how it changes as the ghost moves and grows.
@@ -75,6 +82,7 @@ void add_profile(const GhostAtAngle& ghost, Vec2 point, bool with_derivatives, P
 struct PlacedShape {
   const GhostAtAngle& ghost;
   const StationFrame& frame;
+  OutlineDistance distance;
   Vec2 along;        // to the light, in pixels, y down
   double pixel = 0;  // its width as a tangent
   double reach_out = 0, reach_in = 0;  // distances beyond which the shade is constant over a pixel
@@ -82,7 +90,7 @@ struct PlacedShape {
 
   [[nodiscard]] OutlinePoint nearest(double x, double y) const {
     const Vec2 offset = (Vec2{x, y} - frame.pixels.centre_px) * pixel;
-    return nearest_point(ghost.outline, {dot(offset, along), cross(along, offset)});
+    return distance.nearest({dot(offset, along), cross(along, offset)});
   }
   // Whether pixels far inside depend on one level, or on a profile alone; fits give a ghost one of them.
   [[nodiscard]] bool has_interior() const { return !ghost.has_profile || ghost.inside == Rgb{}; }
@@ -103,10 +111,10 @@ void add_squares(const PlacedShape& shape, int x, int y, bool with_derivatives, 
     const OutlinePoint nearest =
         shape.nearest(x + (k % shape.across + 0.5) * step, y + (k / shape.across + 0.5) * step);  // NOLINT
     if (nearest.distance > shape.reach_out) continue;
-    add_weights(shade_weights(shape.ghost.shade, nearest.distance, width), part, pixel.weights);
-    if (!with_derivatives) continue;
-    const auto by_shape = by_shape_of(shape.ghost, nearest, width);
-    for (std::size_t i = 0; i < kShapeCurves; ++i) add_weights(by_shape[i], part, pixel.by_shape[i]);
+    const PixelShade shade = pixel_shade(shape.ghost, nearest, width, with_derivatives);
+    add_weights(shade.weights, part, pixel.weights);
+    for (std::size_t i = 0; i < kShapeCurves && with_derivatives; ++i)
+      add_weights(shade.by_shape[i], part, pixel.by_shape[i]);
   }
 }
 
@@ -148,15 +156,10 @@ void add_block(const PlacedShape& shape, PixelRange columns, PixelRange rows, bo
         add_inside(shape, shape.index(x, y), with_derivatives, pixels);
         continue;
       }
-      pixels.near_border.push_back({shape.index(x, y),
-                                    shade_weights(shape.ghost.shade, nearest.distance, shape.pixel),
-                                    {},
-                                    shape.ghost.inside,
-                                    {}});
-      if (shape.ghost.has_profile) {
+      const PixelShade shade = pixel_shade(shape.ghost, nearest, shape.pixel, with_derivatives);
+      pixels.near_border.push_back({shape.index(x, y), shade.weights, shade.by_shape, shape.ghost.inside, {}});
+      if (shape.ghost.has_profile)
         add_profile(shape.ghost, point_of(shape.frame, shape.index(x, y)), with_derivatives, pixels.near_border.back());
-      }
-      if (with_derivatives) pixels.near_border.back().by_shape = by_shape_of(shape.ghost, nearest, shape.pixel);
     }
   }
 }
@@ -175,6 +178,7 @@ GhostPixels ghost_pixels(const GhostAtAngle& ghost, const StationFrame& frame, b
   const double scale = frame.pixels.focal_length_px, pixel = 1.0 / scale;
   const PlacedShape shape{ghost,
                           frame,
+                          OutlineDistance(ghost.outline),
                           {frame.to_light.x, -frame.to_light.y},
                           pixel,
                           ghost.shade.fade_out + 0.5 * pixel,
