@@ -83,7 +83,7 @@ struct PlacedShape {
   const GhostAtAngle& ghost;
   const StationFrame& frame;
   OutlineDistance distance;
-  Vec2 along;        // to the light, in pixels, y down
+  Vec2 along;  // to the light, in pixels, y down
   double pixel = 0;  // its width as a tangent
   double reach_out = 0, reach_in = 0;  // distances beyond which the shade is constant over a pixel
   int across = 1;  // squares that each side of a pixel is divided into

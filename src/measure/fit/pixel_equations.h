@@ -37,7 +37,8 @@ struct GhostProducts {
   std::array<double, 3 * 4> levels{};  // by channel: border and border, border and inside, inside and border, inside
 };
 
-// The same for pixels that depend on the places of both ghosts only. They are many, and stay in the cache by themselves.
+// The same for pixels that depend on the places of both ghosts only. They are many, and stay in the cache by
+// themselves.
 using PlaceProducts = std::array<double, kPlaceCurves * kPlaceCurves>;
 
 class PixelEquations {

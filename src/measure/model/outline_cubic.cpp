@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/model/outline_cubic.h"
 
-#include <cmath>
-
 namespace contrejour::inline internal {
 namespace {
 
@@ -11,9 +9,6 @@ std::array<double, 4> bernstein(double t) {
   const double u = 1.0 - t;
   return {u * u * u, 3.0 * u * u * t, 3.0 * u * t * t, t * t * t};
 }
-
-// A tangent shorter than this, relative to the outline, has no direction.
-constexpr double kNoTangent = 1e-12;
 
 }  // namespace
 
@@ -29,18 +24,9 @@ Vec2 OutlineCubic::derivative(double t) const {
          3.0;
 }
 
-Vec2 OutlineCubic::second_derivative(double t) const {
-  const Vec2 first = control[2] - control[1] * 2.0 + control[0];
-  const Vec2 last = control[3] - control[2] * 2.0 + control[1];
-  return (first * (1.0 - t) + last * t) * 6.0;
-}
-
-Vec2 OutlineCubic::outward_normal(double t) const {
-  Vec2 tangent = derivative(t);
-  const Vec2 chord = control[3] - control[0];
-  if (length(tangent) <= kNoTangent * length(chord)) tangent = chord;
-  const double size = length(tangent);
-  return size > 0.0 ? Vec2{-tangent.y / size, tangent.x / size} : Vec2{0.0, 1.0};
+std::array<Vec2, 4> OutlineCubic::power_basis() const {
+  return {control[0], (control[1] - control[0]) * 3.0, (control[2] - control[1] * 2.0 + control[0]) * 3.0,
+          control[3] - control[0] + (control[1] - control[2]) * 3.0};
 }
 
 OutlineCubic left_cubic(const GhostOutline& o) {

@@ -16,8 +16,7 @@ struct OutlineCubic {
 
   [[nodiscard]] Vec2 at(double t) const;
   [[nodiscard]] Vec2 derivative(double t) const;
-  [[nodiscard]] Vec2 second_derivative(double t) const;
-  [[nodiscard]] Vec2 outward_normal(double t) const;  // unit
+  [[nodiscard]] std::array<Vec2, 4> power_basis() const;  // coefficients of 1, t, t^2, t^3
 };
 
 // From the left end of the axis to the top, and from the top to the right end.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kMaxSteps = 40;
 constexpr double kSameParameter = 1e-14;
+constexpr double kNoTangent = 1e-12;  // of the chord: a shorter tangent has no direction
 constexpr double kLastStep = 1e-8;  // of Newton's method, whose error is about the square of its last step
 
 GhostOutline about_its_centre(GhostOutline outline) {
@@ -29,31 +30,39 @@ void cut(const GhostOutline& outline, Vec2 above, OutlinePoint& nearest) {
 }  // namespace
 
 OutlineDistance::Arc::Arc(const OutlineCubic& relative)
-    : cubic(relative), power{relative.control[0], (relative.control[1] - relative.control[0]) * 3.0,
-                             (relative.control[2] - relative.control[1] * 2.0 + relative.control[0]) * 3.0,
-                             relative.control[3] - relative.control[0] +
-                                 (relative.control[1] - relative.control[2]) * 3.0} {
+    : chord(relative.control[3] - relative.control[0]), power(relative.power_basis()) {
   for (std::size_t k = 0; k <= kSamples; ++k) {
     const double t = static_cast<double>(k) / kSamples;
-    const Vec2 tangent = cubic.derivative(t);
+    const Vec2 tangent = relative.derivative(t);
     tangent_x[k] = tangent.x;
     tangent_y[k] = tangent.y;
-    along[k] = dot(cubic.at(t), tangent);
+    along[k] = dot(relative.at(t), tangent);
   }
 }
 
+Vec2 OutlineDistance::Arc::at(double t) const { return ((power[3] * t + power[2]) * t + power[1]) * t + power[0]; }
+
+Vec2 OutlineDistance::Arc::derivative(double t) const { return (power[3] * (3.0 * t) + power[2] * 2.0) * t + power[1]; }
+
+Vec2 OutlineDistance::Arc::outward_normal(double t) const {
+  Vec2 tangent = derivative(t);
+  if (dot(tangent, tangent) <= kNoTangent * kNoTangent * dot(chord, chord)) tangent = chord;
+  const double size = length(tangent);
+  return size > 0.0 ? Vec2{-tangent.y / size, tangent.x / size} : Vec2{0.0, 1.0};
+}
+
 double OutlineDistance::Arc::squared_distance(double t, Vec2 point) const {
-  const Vec2 offset = ((power[3] * t + power[2]) * t + power[1]) * t + power[0] - point;
+  const Vec2 offset = at(t) - point;
   return dot(offset, offset);
 }
 
-// The minimum between two parameters where the slope changes from negative to positive: Newton's steps, replaced by
-// halves of the interval wherever they leave it (walch2018: twelve bisections).
-double OutlineDistance::Arc::minimum(Vec2 point, double low, double high) const {
-  double t = 0.5 * (low + high);
+// The minimum between two parameters where the slope changes from negative to positive: Newton's steps from where a
+// line would cross 0, replaced by halves of the interval wherever they leave it (walch2018: twelve bisections).
+double OutlineDistance::Arc::minimum(Vec2 point, Slope from, Slope to) const {
+  double low = from.t, high = to.t;
+  double t = low + (high - low) * from.value / (from.value - to.value);
   for (int step = 0; step < kMaxSteps && high - low > kSameParameter; ++step) {
-    const Vec2 offset = ((power[3] * t + power[2]) * t + power[1]) * t + power[0] - point;
-    const Vec2 first = (power[3] * (3.0 * t) + power[2] * 2.0) * t + power[1];
+    const Vec2 offset = at(t) - point, first = derivative(t);
     const Vec2 second = power[3] * (6.0 * t) + power[2] * 2.0;
     const double slope = dot(offset, first);
     (slope < 0.0 ? low : high) = t;
@@ -75,7 +84,8 @@ OutlineDistance::Nearest OutlineDistance::Arc::nearest(Vec2 point) const {
   consider(1.0);
   for (std::size_t k = 1; k <= kSamples; ++k) {
     const double t = static_cast<double>(k) / kSamples;
-    if (slope[k - 1] < 0.0 && slope[k] >= 0.0) consider(minimum(point, t - 1.0 / kSamples, t));
+    if (slope[k - 1] < 0.0 && slope[k] >= 0.0)
+      consider(minimum(point, {t - 1.0 / kSamples, slope[k - 1]}, {t, slope[k]}));
   }
   return best;
 }
@@ -90,9 +100,9 @@ OutlinePoint OutlineDistance::nearest(Vec2 point) const {
   nearest.is_below = point.y < 0.0;
   nearest.is_right = on_right.squared < on_left.squared;
   nearest.t = nearest.is_right ? on_right.t : on_left.t;
-  const OutlineCubic& cubic = nearest.is_right ? right_.cubic : left_.cubic;
-  const Vec2 offset = relative - cubic.at(nearest.t);
-  nearest.normal = cubic.outward_normal(nearest.t);
+  const Arc& arc = nearest.is_right ? right_ : left_;
+  const Vec2 offset = relative - arc.at(nearest.t);
+  nearest.normal = arc.outward_normal(nearest.t);
   nearest.distance = std::copysign(length(offset), dot(offset, nearest.normal));
   if (outline_.clip_radius > 0.0) cut(outline_, above, nearest);
   if (nearest.is_below) nearest.normal.y = -nearest.normal.y;

@@ -26,15 +26,23 @@ class OutlineDistance {
     double t = 0;
   };
 
+  // Half the derivative of the squared distance with respect to t.
+  struct Slope {
+    double t = 0, value = 0;
+  };
+
   // A cubic relative to the outline's centre.
   struct Arc {
     explicit Arc(const OutlineCubic& relative);
 
     [[nodiscard]] Nearest nearest(Vec2 point) const;
+    [[nodiscard]] Vec2 at(double t) const;
+    [[nodiscard]] Vec2 derivative(double t) const;
+    [[nodiscard]] Vec2 outward_normal(double t) const;  // unit
     [[nodiscard]] double squared_distance(double t, Vec2 point) const;
-    [[nodiscard]] double minimum(Vec2 point, double low, double high) const;
+    [[nodiscard]] double minimum(Vec2 point, Slope from, Slope to) const;
 
-    OutlineCubic cubic;
+    Vec2 chord;
     std::array<Vec2, 4> power;  // coefficients of 1, t, t^2, t^3
     // At the samples, the derivative of the cubic, and the cubic times its derivative. Half the derivative of the
     // squared distance from p is `along` - p * `tangent`.

@@ -32,11 +32,6 @@ struct PlacedGhost {
   int across = 1;  // squares that each side of a pixel is divided into: the packet's unit of length is one of them
 };
 
-std::array<float, 4> power_basis(double p0, double p1, double p2, double p3) {
-  return {static_cast<float>(p0), static_cast<float>(3.0 * (p1 - p0)), static_cast<float>(3.0 * (p0 - 2.0 * p1 + p2)),
-          static_cast<float>(p3 - 3.0 * p2 + 3.0 * p1 - p0)};
-}
-
 // The outline scaled to pixels and moved to its own origin.
 GhostOutline in_pixels(const GhostOutline& o, double scale) {
   const auto sized = [scale](double half_axis) { return std::max(scale * half_axis, kMinHalfAxis_px); };
@@ -50,9 +45,11 @@ PlacedGhost placed(const GhostAtAngle& ghost, Vec2 along, const Rgb& value, cons
   const GhostOutline outline = in_pixels(ghost.outline, scale);
   const std::array<OutlineCubic, 2> cubics{left_cubic(outline), right_cubic(outline)};
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto& c = cubics[k].control;
-    at.packet.x[k] = power_basis(c[0].x, c[1].x, c[2].x, c[3].x);
-    at.packet.y[k] = power_basis(c[0].y, c[1].y, c[2].y, c[3].y);
+    const std::array<Vec2, 4> coefficients = cubics[k].power_basis();
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      at.packet.x[k][i] = static_cast<float>(coefficients[i].x);
+      at.packet.y[k][i] = static_cast<float>(coefficients[i].y);
+    }
   }
   at.packet.fade_in = static_cast<float>(scale * ghost.shade.fade_in);
   at.packet.fade_out = static_cast<float>(scale * ghost.shade.fade_out);
