@@ -116,6 +116,40 @@ TEST_CASE("small ghosts: a spot that saturates one channel is found by the other
   CHECK(std::abs((found->speed + found->bend * s * s - 0.55) * s) * kSpotFocalLength_px < 1.0);
 }
 
+TEST_CASE("small ghosts: a channel that a spot saturates gets a level near that of the others [slow]") {
+  const MeasuredFlare flare{"", "", 0.4, std::nullopt, {spot_disc(0.55, 1.6, 3.0)}};
+  FlareSweep sweep = sweep_of_spots(flare, kSpotNoise);
+  const float most = static_cast<float>(0.1 * 3.0 / (kSpotFocalLength_px * kSpotFocalLength_px));
+  std::size_t saturated = 0;
+  sweep.picture = [&saturated, most, whole = sweep.picture](std::size_t k) -> Result<CapturedImage> {
+    Result<CapturedImage> image = whole(k);
+    image->valid = Image(kSpotWidth, kSpotHeight);
+    for (std::size_t i = 0; i < image->rate.pixels.size(); ++i) {
+      const bool is_lost = i % 3 == 2 && image->rate.pixels[i] > most;
+      image->valid.pixels[i] = is_lost ? 0.0F : 1.0F;
+      if (is_lost) image->rate.pixels[i] = most;
+      saturated += is_lost ? 1 : 0;
+    }
+    return image;
+  };
+  FlareFitOptions options;
+  options.max_ghosts = 0;
+  options.max_small_ghosts = 1;
+  const SweepGeometry geometry{kSpotFrame.centre_px, kSpotFocalLength_px, 0.0, 0.0, 0.0, 0.0, {}};
+  const auto fit = fit_flare(sweep, geometry, options, {.threads = 1});
+  REQUIRE_MESSAGE(fit.has_value(), fit.error().to_string());
+  CHECK(saturated > 50);
+  REQUIRE(fit->flare.ghosts.size() >= 2);
+  MeasuredFlare alone = fit->flare;
+  alone.ghosts = {fit->flare.ghosts[1]};
+  for (const double s : {0.1, 0.2, 0.3}) {
+    Rgb flux{};
+    const Image drawn = picture_of_spots(alone, s, 1, 0.0);
+    for (std::size_t i = 0; i < drawn.pixels.size(); ++i) flux[i % 3] += static_cast<double>(drawn.pixels[i]);
+    CHECK(flux[2] == test::approx(flux[0]).epsilon(0.4));
+  }
+}
+
 TEST_CASE("small ghosts: a fit finds two spots, and their speeds, sizes and levels, with a disc below them [slow]") {
   FlareFitOptions options;
   options.max_ghosts = 1;

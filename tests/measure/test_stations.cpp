@@ -98,3 +98,24 @@ TEST_CASE("stations: samples are evenly spread, however few they are") {
     CHECK(static_cast<double>(used) == test::approx(3.0 * 60.0 * 40.0 / every).epsilon(0.03));
   }
 }
+
+TEST_CASE("stations: a channel that is not measured is guessed from the others, with an error as large") {
+  FitStation station;
+  station.rate = station.weight = Image(3, 1);
+  const auto set = [&](int x, int channel, float rate, float weight) {
+    station.rate.at(x, 0, channel) = rate;
+    station.weight.at(x, 0, channel) = weight;
+  };
+  set(0, 0, 2.0F, 4.0F);  // blue saturates
+  set(0, 1, 4.0F, 4.0F);
+  set(1, 1, 5.0F, 1.0F);  // all channels, or none, at the others
+  set(1, 0, 6.0F, 1.0F);
+  set(1, 2, 7.0F, 1.0F);
+  const FitStation before = station;
+  guess_channels(station);
+  CHECK(station.rate.at(0, 0, 2) == test::approx(3.0));
+  CHECK(station.weight.at(0, 0, 2) == test::approx(1.0 / (3.0 * 3.0 + 0.25)));
+  station.rate.at(0, 0, 2) = station.weight.at(0, 0, 2) = 0.0F;
+  CHECK(station.rate.pixels == before.rate.pixels);
+  CHECK(station.weight.pixels == before.weight.pixels);
+}

@@ -8,6 +8,7 @@
 
 #include "measure/find/find_small_ghosts.h"
 #include "measure/fit/ghost_start.h"
+#include "measure/fit/stations.h"
 
 namespace contrejour::inline internal {
 namespace {
@@ -89,6 +90,7 @@ std::optional<FitStation> window_about(const FitStation& station, const SpotPlac
     for (int y = 0; y < window.rate.height; ++y)
       for (int x = 0; x < window.rate.width; ++x) window.rate.at(x, y, c) -= static_cast<float>(*around);
   }
+  guess_channels(window);
   return window;
 }
 

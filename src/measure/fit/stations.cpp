@@ -20,6 +20,7 @@ constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this pa
 constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
 // Ghosts up to this radius have every pixel within kAboutPart * radius + kAbout_px fitted.
 constexpr double kSmall_px = 8.0, kAboutPart = 1.3, kAbout_px = 2.0;
+constexpr double kGuessError = 1.0;  // of the guess of a channel that is not measured
 constexpr double kUsable = 1.0;    // of a block's pixels, for the block to be used
 
 // Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
@@ -301,6 +302,26 @@ std::vector<bool> about_small_ghosts(const FitStation& station, const MeasuredFl
 
 }  // namespace
 
+void guess_channels(FitStation& station) {
+  for (std::size_t first = 0; first < station.rate.pixels.size(); first += 3) {
+    double sum = 0.0, variance = 0.0, measured = 0.0;
+    for (std::size_t k = first; k < first + 3; ++k) {
+      const auto weight = static_cast<double>(station.weight.pixels[k]);
+      if (weight == 0.0) continue;
+      sum += static_cast<double>(station.rate.pixels[k]);
+      variance += 1.0 / weight;
+      ++measured;
+    }
+    if (measured == 0.0 || measured == 3.0) continue;
+    const double guess = sum / measured, off = kGuessError * guess;
+    for (std::size_t k = first; k < first + 3; ++k) {
+      if (station.weight.pixels[k] != 0.0F) continue;
+      station.rate.pixels[k] = static_cast<float>(guess);
+      station.weight.pixels[k] = static_cast<float>(1.0 / (off * off + variance / measured));
+    }
+  }
+}
+
 std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int every, const MeasuredFlare& flare) {
   for (FitStation& station : stations) {
     station.frame.sampled_every = every;
@@ -314,6 +335,7 @@ std::vector<FitStation> sampled_stations(std::vector<FitStation> stations, int e
         }
       }
     }
+    guess_channels(station);
   }
   return stations;
 }
