@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/tasks.h"
+#include "vulkan/dirt_words.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {
@@ -114,6 +115,15 @@ void AdaptiveFrame::upload_patterns() {
   kept_.patterns = job_.patterns;
 }
 
+void AdaptiveFrame::upload_dirt() {
+  if (!job_.dirt || kept_.dirt == job_.dirt) return;
+  kept_.dirt = nullptr;
+  const std::vector<std::uint32_t> words = dirt_words(*job_.dirt);
+  device_.upload(Slot::Dirt, words);
+  work_.uploaded_bytes += sizeof(std::uint32_t) * words.size();
+  kept_.dirt = job_.dirt;
+}
+
 void AdaptiveFrame::upload_items(const Frame& band) {
   std::vector<float> starts;
   for (const DeviceStart& start : job_.starts) {
@@ -156,6 +166,14 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   parameters_.bound_count = narrow(bounds.size() / 8);
 }
 
+// Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all), and each polygon of a list may take
+// several for every stroke about a point, at every crossing of the stop.
+std::uint32_t AdaptiveFrame::list_part() const {
+  constexpr std::uint32_t kTurns = 60000, kTurnsAStroke = 51, kLeast = 32;
+  if (!job_.dirt) return TileLists::kMostOfTask;
+  return std::clamp(kTurns / (kTurnsAStroke * (job_.dirt->most_about_cell() + 1)), kLeast, TileLists::kMostOfTask);
+}
+
 // The histogram, then the sums of the tiles that are drawn in parts.
 std::uint64_t AdaptiveFrame::sums_bytes() const {
   return kHistogramBytes + lists_.most_split_tiles() * kRasterTile * kRasterTile * kSumBytes;
@@ -176,6 +194,7 @@ void AdaptiveFrame::need_buffers() {
   device_.need(Slot::LargeCorners, kCornerBytes * capacity_.corners);
   device_.need(Slot::CutCells, kCutBytes * capacity_.cut_cells);
   lists_ = tile_lists_of(parameters_.width, parameters_.height, kRasterTile);
+  lists_.list_part = list_part();
   lists_.polygon_capacity = narrow(capacity_.polygons);
   lists_.entry_capacity = narrow(capacity_.tile_entries);
   vulkan::need_buffers(device_, lists_);
@@ -216,7 +235,7 @@ void AdaptiveFrame::search() {
     device_.barrier();
   }
   device_.end_stage("pupils");
-  dispatch({Shader::AdaptiveMeasure, geometry_}, rows_of(groups));
+  dispatch({choose(Shader::AdaptiveMeasure, Shader::AdaptiveMeasureOccluded), geometry_}, rows_of(groups));
   device_.barrier();
   device_.end_stage("measures");
   dispatch(Shader::AdaptiveBudget, {1, 1});
@@ -230,12 +249,12 @@ void AdaptiveFrame::list_polygons() {
   device_.end_stage("rays");
   dispatch_indirect(Shader::AdaptiveVertices, kIndirectRays);
   device_.barrier();
-  dispatch_indirect(Shader::AdaptiveCells, kIndirectRays);
+  dispatch_indirect(choose(Shader::AdaptiveCells, Shader::AdaptiveCellsOccluded), kIndirectRays);
   device_.barrier();
   device_.end_stage("cells");
   dispatch(Shader::AdaptiveCutSize, {1, 1});
   device_.barrier();
-  dispatch_indirect(Shader::AdaptiveCut, kIndirectCut);
+  dispatch_indirect(choose(Shader::AdaptiveCut, Shader::AdaptiveCutOccluded), kIndirectCut);
   device_.barrier();
   device_.end_stage("cut cells");
 }
@@ -243,7 +262,8 @@ void AdaptiveFrame::list_polygons() {
 void AdaptiveFrame::fill_tiles() {
   fill_lists(device_, info_, lists_);
   device_.end_stage("tile lists");
-  dispatch_indirect(job_.patterns ? Shader::AdaptiveRasterPatterned : Shader::AdaptiveRaster, kIndirectTiles);
+  const Shader unoccluded = job_.patterns ? Shader::AdaptiveRasterPatterned : Shader::AdaptiveRaster;
+  dispatch_indirect(choose(unoccluded, Shader::AdaptiveRasterOccluded), kIndirectTiles);
   device_.barrier();
   dispatch_indirect(Shader::AdaptiveJoinParts, kIndirectTiles);
   device_.barrier();
@@ -342,16 +362,24 @@ void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   }
 }
 
+std::uint32_t AdaptiveFrame::flags() const {
+  std::uint32_t bits = job_.iris.is_circle() ? kCircle : 0U;
+  if (job_.dirt) bits |= job_.dirt->on_front ? kDirtOnFront : kDirtInStop;
+  return bits;
+}
+
 DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
   upload_paths();
   upload_patterns();
+  upload_dirt();
   geometry_ = geometry_of(*job_.paths);
   AdaptiveParameters& p = parameters_;
   p.item_count = narrow(job_.items.size());
   p.group_count = narrow(job_.groups.size());
   p.level = kSearchLevels;
-  p.flags = job_.iris.is_circle() ? kCircle : 0U;
+  p.flags = flags();
+  p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
   p.least_peak = static_cast<float>(job_.least_peak);
   prepare(frame);

@@ -32,6 +32,7 @@ struct AdaptiveKept {
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none
   std::vector<PathPlace> places;  // by path
   std::shared_ptr<const DevicePatterns> patterns;  // that are uploaded
+  std::shared_ptr<const DeviceDirt> dirt;  // that is uploaded
 };
 
 class AdaptiveFrame {
@@ -52,6 +53,7 @@ class AdaptiveFrame {
   [[nodiscard]] int rows_a_band() const;
   void upload_paths();
   void upload_patterns();
+  void upload_dirt();
   void upload_items(const Frame& band);
   void need_buffers();
   void clear_search();
@@ -60,6 +62,10 @@ class AdaptiveFrame {
   void list_polygons();
   void fill_tiles();
   [[nodiscard]] std::uint64_t sums_bytes() const;
+  [[nodiscard]] std::uint32_t flags() const;
+  [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
+  // The shader for frames with dirt, or for those without.
+  [[nodiscard]] Shader choose(Shader clean, Shader occluded) const { return job_.dirt ? occluded : clean; }
   // Sets what is drawn: the whole frame, or some of its rows.
   void prepare(const Frame& rows);
   // Submissions: return false if a buffer did not suffice. Rows are drawn into the image, from its first row on.

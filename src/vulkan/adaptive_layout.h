@@ -16,8 +16,11 @@ struct AdaptiveParameters {
   std::uint32_t bound_count = 0;
   std::int32_t width = 0, height = 0;
   std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, cut_capacity = 0;
-  float budget = 0, least_peak = 0;
+  float budget = 0, least_peak = 0, front_gap_mm = 0;
 };
+
+// Bits of the flags, besides kCircle.
+enum AdaptiveFlags : std::uint32_t { kDirtInStop = 16, kDirtOnFront = 32 };
 
 struct ItemRecord {
   std::uint32_t reals_at = 0, integers_at = 0, step_count = 0, group = 0, crossing_count = 0;
@@ -43,6 +46,17 @@ struct PatternRecord {
   float outer_radius = 0, scale = 0, level_from = 0, roughness = 0, difference = 0;
 };
 static_assert(sizeof(PatternRecord) == 32);
+
+// The header of the dirt, as shaders/adaptive/dirt.glsl reads it; the tables begin at these words.
+struct DirtHeader {
+  float extent_mm = 0;
+  std::uint32_t cells = 0;
+  float mm_a_unit = 0, edges_per_mm = 0;
+  std::uint32_t strokes_at = 0, first_at = 0, of_cell_at = 0, blocked_at = 0, dirty_at = 0;
+  std::uint32_t picture_at = 0, picture_width = 0, picture_height = 0;  // picture_at: 0 if there is none
+  float clear_radius_mm = 0;
+};
+static_assert(sizeof(DirtHeader) == 52);
 
 inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;

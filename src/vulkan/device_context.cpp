@@ -22,7 +22,8 @@ Residence residence_of(std::size_t slot) {
     case Slot::Items:
     case Slot::Starts:
     case Slot::Groups:
-    case Slot::Patterns: return Residence::Upload;
+    case Slot::Patterns:
+    case Slot::Dirt: return Residence::Upload;
     default: return Residence::Device;
   }
 }

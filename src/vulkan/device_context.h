@@ -58,8 +58,9 @@ enum class Slot : std::uint8_t {
   Wide,
   Patterns,
   TileTasks,
+  Dirt,
 };
-inline constexpr std::size_t kSlots = 29;
+inline constexpr std::size_t kSlots = 30;
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {

@@ -6,11 +6,15 @@ namespace {
 
 #include "vulkan/adaptive_budget.inc"
 #include "vulkan/adaptive_cells.inc"
+#include "vulkan/adaptive_cells_occluded.inc"
 #include "vulkan/adaptive_cut.inc"
+#include "vulkan/adaptive_cut_occluded.inc"
 #include "vulkan/adaptive_cut_size.inc"
 #include "vulkan/adaptive_join_parts.inc"
 #include "vulkan/adaptive_measure.inc"
+#include "vulkan/adaptive_measure_occluded.inc"
 #include "vulkan/adaptive_raster.inc"
+#include "vulkan/adaptive_raster_occluded.inc"
 #include "vulkan/adaptive_raster_patterned.inc"
 #include "vulkan/adaptive_search.inc"
 #include "vulkan/adaptive_trace.inc"
@@ -59,6 +63,10 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveRaster: return kAdaptiveRasterCode;
     case Shader::AdaptiveRasterPatterned: return kAdaptiveRasterPatternedCode;
     case Shader::AdaptiveJoinParts: return kAdaptiveJoinPartsCode;
+    case Shader::AdaptiveMeasureOccluded: return kAdaptiveMeasureOccludedCode;
+    case Shader::AdaptiveCellsOccluded: return kAdaptiveCellsOccludedCode;
+    case Shader::AdaptiveCutOccluded: return kAdaptiveCutOccludedCode;
+    case Shader::AdaptiveRasterOccluded: return kAdaptiveRasterOccludedCode;
   }
   return {};
 }

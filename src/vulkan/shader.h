@@ -36,8 +36,13 @@ enum class Shader : std::uint8_t {
   AdaptiveRaster,
   AdaptiveRasterPatterned,
   AdaptiveJoinParts,
+  // The same as those without the word, for frames with dirt.
+  AdaptiveMeasureOccluded,
+  AdaptiveCellsOccluded,
+  AdaptiveCutOccluded,
+  AdaptiveRasterOccluded,
 };
-inline constexpr std::size_t kShaders = 25;
+inline constexpr std::size_t kShaders = 29;
 
 // A shader, and for those that trace rays the surfaces that they must handle: drivers leave out the code of others.
 struct Program {

@@ -11,20 +11,21 @@
 
 namespace contrejour::inline internal::vulkan {
 
-inline constexpr std::uint32_t kListPart = 1024;  // polygons of a task, at most: LIST_PART
-
 enum ListFlags : std::uint32_t { kListPrimitives = 1 };
 
 // The shaders' push constants, in their order.
 struct TileLists {
+  static constexpr std::uint32_t kMostOfTask = 1024;
+
   std::uint32_t level = 0, flags = 0;  // level: of the present dispatch
   std::uint32_t tiles_across = 0, tiles_down = 0;
   std::uint32_t polygon_capacity = 0, entry_capacity = 0;
   std::int32_t tile_side = 1;  // pixels
+  std::uint32_t list_part = kMostOfTask;  // polygons of a task, at most
 
   [[nodiscard]] std::uint64_t tile_count() const { return std::uint64_t{tiles_across} * tiles_down; }
   [[nodiscard]] std::uint64_t most_split_tiles() const { return std::min(tile_count(), most_tasks() - tile_count()); }
-  [[nodiscard]] std::uint64_t most_tasks() const { return tile_count() + entry_capacity / kListPart + 1; }
+  [[nodiscard]] std::uint64_t most_tasks() const { return tile_count() + entry_capacity / list_part + 1; }
 };
 
 // The lists of a picture's tiles; the caller sets flags and capacities.

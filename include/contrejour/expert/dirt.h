@@ -32,6 +32,10 @@ class CONTREJOUR_API DirtPicture {
   // Transmittance at a point in clear radii, bilinear between pixels.
   [[nodiscard]] double transmission(Vec2 point) const;
   [[nodiscard]] double pixel() const { return 2.0 / static_cast<double>(longer_); }  // side of a pixel in clear radii
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  // Transmittances of the pixels, 0 to 1, rows from the top.
+  [[nodiscard]] std::span<const float> levels() const { return level_; }
 
  private:
   int width_ = 0, height_ = 0, longer_ = 1;

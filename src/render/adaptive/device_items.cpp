@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
+#include "render/adaptive/device_dirt.h"
 #include "render/adaptive/device_patterns.h"
 #include "render/adaptive/kept_paths.h"
 #include "render/device/device_frame.h"
@@ -141,7 +142,8 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
 
 std::string device_lacks(const PlannedFrame& planned) {
   if (planned.lens.iris.field) return "a picture as the iris is";
-  if (planned.plan.dirt) return "dirt is";
+  const std::shared_ptr<const DirtField>& dirt = planned.plan.dirt;
+  if (dirt && !dirt->has_picture() && planned.settings.ringing.mode != RingingMode::None) return "dirt with ringing is";
   return {};
 }
 
@@ -161,13 +163,16 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
   const IrisShape iris(planned.lens.iris);
   const auto patterns =
       all.patterns.empty() ? nullptr : planned.cache.section<KeptPatterns>({})->get(all.patterns, iris);
+  const auto dirt = planned.cache.section<KeptDeviceDirt>({})->get(plan->dirt);
+  const double front_gap_mm =
+      dirt && !all.windows.empty() ? plan->dirt->site().front_z_mm - all.windows.front().z_mm : 0.0;
   return draw_layers(
       *kept.device, {*plan, frame, planned.cache, std::move(statistics), ms_since(start)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
-        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, all.starts, items, groups, error,
-                                             plan->min_peak, kept.reads_pictures},
+        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items,
+                                             groups, error, plan->min_peak, kept.reads_pictures},
                                  image, drawing);
       },
       context);

@@ -23,6 +23,7 @@
 #include "contrejour/result.h"
 #include "ghosts/iris_shape.h"
 #include "optics/trace/packet_trace.h"
+#include "render/device/device_dirt.h"
 
 namespace contrejour::inline internal {
 
@@ -110,6 +111,9 @@ struct AdaptiveJob {
   const IrisShape& iris;  // not a picture
   std::shared_ptr<const DevicePaths> paths;
   std::shared_ptr<const DevicePatterns> patterns;  // null: the iris is sharp in all items
+  // Null: the lens is clean. A device keeps what it was given last, as DevicePaths.
+  std::shared_ptr<const DeviceDirt> dirt;
+  double front_gap_mm = 0.0;  // along the axis, from the entrance plane to the plane of dirt on the front
   std::span<const DeviceStart> starts;
   std::span<const DeviceItem> items;
   std::span<const DeviceGroup> groups;

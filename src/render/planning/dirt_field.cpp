@@ -165,11 +165,13 @@ double DirtField::small_transmission(Vec2 at, double width) const {
 double DirtField::transmission(const DirtPoint& point) const {
   if (!std::isfinite(point.at_mm.x + point.at_mm.y)) return 1.0;
   const double of_picture = picture_ ? picture_transmission(point) : 1.0;
-  if (shapes_.empty()) return of_picture;
+  return shapes_.empty() ? of_picture : of_picture * shapes_transmission(point);
+}
+
+double DirtField::shapes_transmission(const DirtPoint& point) const {
   const int parts = std::clamp(static_cast<int>(std::ceil(point.width_mm / cell_mm_)), 1, kMaxParts);
-  return of_picture * mean_of_parts(parts, [&](Vec2 off) {
-           return small_transmission(point.at_mm + off * point.width_mm, point.width_mm / parts);
-         });
+  return mean_of_parts(
+      parts, [&](Vec2 off) { return small_transmission(point.at_mm + off * point.width_mm, point.width_mm / parts); });
 }
 
 double DirtField::picture_transmission(const DirtPoint& point) const {

@@ -43,6 +43,8 @@ struct DirtSite {
 
 class DirtField {
  public:
+  static constexpr int kCells = 128;  // across the field
+
   // Null where the lens is clean.
   [[nodiscard]] static std::shared_ptr<const DirtField> of(const LensState& lens);
   explicit DirtField(const LensState& lens);
@@ -50,6 +52,8 @@ class DirtField {
   [[nodiscard]] const DirtSite& site() const { return site_; }
   // The mean transmittance over the square about the point.
   [[nodiscard]] double transmission(const DirtPoint& point) const;
+  // The same without the picture.
+  [[nodiscard]] double shapes_transmission(const DirtPoint& point) const;
   // Whether transmission() is 1 all over a disc. A large disc counts as not clean where dirt comes near its bounds.
   [[nodiscard]] bool is_clean(Vec2 middle_mm, double radius_mm) const;
   [[nodiscard]] DirtEdges edges() const { return {edges_per_mm_, 0.0}; }
@@ -65,17 +69,19 @@ class DirtField {
   [[nodiscard]] double variance(double pixel_mm) const;
 
   [[nodiscard]] bool has_picture() const { return picture_ != nullptr; }
+  [[nodiscard]] const std::shared_ptr<const DirtPicture>& picture() const { return picture_; }
+  [[nodiscard]] double clear_radius_mm() const { return clear_radius_mm_; }  // that the picture spans
   [[nodiscard]] double extent_mm() const { return extent_mm_; }
   [[nodiscard]] const std::vector<DirtStroke>& shapes() const { return shapes_; }
+  // The numbers of the shapes that a square no wider than a cell about any point of a cell may meet.
+  [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
   // Appends the shapes that may meet a box, in order of index.
   void find_within(Vec2 low_mm, Vec2 high_mm, std::vector<std::uint32_t>& found) const;
   [[nodiscard]] std::size_t bytes() const;  // of its arrays
 
  private:
-  static constexpr int kCells = 128;  // across the field
   static constexpr double kMaxCovered = 0.3;  // fraction of the field
   [[nodiscard]] int cell_of(double coordinate_mm) const { return dirty_.cell_of(coordinate_mm); }
-  [[nodiscard]] std::span<const std::uint32_t> shapes_about(int x, int y) const;
   [[nodiscard]] double small_transmission(Vec2 at, double width) const;
   [[nodiscard]] double picture_transmission(const DirtPoint& point) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact part of a pixel that a polygon covers, as the sum of signed areas beside its edges.
+// The exact part of a pixel that a polygon covers, as the sum of signed areas beside its edges, or beside one edge.
 
 // The integral over an edge's height, within a pixel's row, of the part of the pixel that lies right of the edge. The
 // pixel is the unit square; positive where the edge runs to larger y.
@@ -22,4 +22,12 @@ float area_right_of(vec2 a, vec2 b) {
     mean = ((left - x0) + (right - left) * (1.0 - 0.5 * (left + right))) / (x1 - x0);
   }
   return (a.y < b.y ? mean : -mean) * (y1 - y0);
+}
+
+// The part of a pixel on the positive side of an edge that crosses it.
+float half_plane(vec2 slope, float at_middle) {
+  float longer = max(abs(slope.x), abs(slope.y)), shorter = min(abs(slope.x), abs(slope.y)), off = abs(at_middle);
+  float rest = 0.5 * (longer + shorter) - off;
+  float part = off <= 0.5 * (longer - shorter) ? 0.5 + off / longer : 1.0 - rest * rest / (2.0 * longer * shorter);
+  return at_middle >= 0.0 ? part : 1.0 - part;
 }

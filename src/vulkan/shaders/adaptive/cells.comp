@@ -10,6 +10,9 @@ layout(local_size_x = 64) in;
 #include "../polygon.glsl"
 #include "../cell.glsl"
 #include "list.glsl"
+#ifdef OCCLUDERS
+#include "../coverage.glsl"
+#endif
 #include "state.glsl"
 
 // Returns false where the cell's triangles are to be drawn in its place.
@@ -49,12 +52,22 @@ void list_cut(uint parts) {
 
 void main() {
   if (!find_ray() || own % side + 1u == side || own / side + 1u == side) return;
+#ifdef OCCLUDERS
+  grid_box = final_box(group_of(item));
+#endif
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
   int how = patterned_state(v, crossings_of(item), pattern_of(item));
   if (how == STATE_CLOSED) return;
   bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
   if (!any_failed && outside_frame(v)) return;
   set_cell(v);
+#ifdef OCCLUDERS
+  // An open cell with dirt is drawn by cut.comp, but whole: its sides are as straight as those of other open cells.
+  if (how == STATE_OPEN && is_dirty(v.x, v.y, v.z, v.w, crossings_of(item))) {
+    list_cut(1u);
+    return;
+  }
+#endif
   if (how == STATE_OPEN && list_open(v)) return;
   list_cut(any_failed ? 1u : cut_parts(v));
 }

@@ -21,6 +21,7 @@ layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by 
 layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by item: its first block of 64 rays
 layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
 layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
+layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
 layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
 
 layout(push_constant) uniform Parameters {
@@ -30,8 +31,13 @@ layout(push_constant) uniform Parameters {
   uint ray_capacity, large_capacity, corner_capacity, cut_capacity;
   float budget;         // squared error of the frame's samples, in peaks
   float least_peak;     // that errors are relative to
+  float front_gap;      // from the entrance plane to that of dirt on the front, mm
 }
 p;
+
+// Bits of the flags, besides FLAG_CIRCLE.
+#define FLAG_DIRT_IN_STOP 16u
+#define FLAG_DIRT_ON_FRONT 32u
 
 // A part of a cut cell, in cut_cells[].y: the cell's first ray in its grid, the part, the parts a side less 1.
 #define CUT_CELL_MASK 0x1fffffu

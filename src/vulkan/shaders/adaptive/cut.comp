@@ -10,6 +10,9 @@ layout(local_size_x = 64) in;
 #include "../polygon.glsl"
 #include "../cell.glsl"
 #include "list.glsl"
+#ifdef OCCLUDERS
+#include "../coverage.glsl"
+#endif
 #include "state.glsl"
 #include "between.glsl"
 
@@ -19,10 +22,20 @@ vec2 pixels[3];
 // The stop points of the corners at the last crossing, where the item has a stop pattern.
 uint pattern = 0u;
 vec2 last_stops[3];
+bool is_dimmed = false;  // the triangle, by more than rims and the sharp iris
+#ifdef OCCLUDERS
+// Shadows are sharper than most fringes, so that all triangles in a pixel must have the mean over the pixel, or each of
+// them the mean over itself, where a pixel sees much of the stop.
+#define LARGE_PX 0.001
+#define LARGE_OF_WIDE_PX 1.0
+#define WIDE 0.1
+float least_thickness(float longest) { return min(0.1 * longest, 1.0); }  // px
+#else
 #define LARGE_PX 1.0           // smaller triangles have the mean transmittance of their part of the stop
 #define LARGE_OF_WIDE_PX 2.0   // the same where a pixel is WIDE of the stop
 #define WIDE 0.5               // stop radii
-#define THIN 1.0               // px
+float least_thickness(float longest) { return 1.0; }  // px
+#endif
 
 vec2 middle_of_part;  // in (u, v)
 float part_of_triangle;
@@ -34,50 +47,103 @@ void find_middle(float fraction) {
   middle_of_part /= float(corner_count);
 }
 
-// The mean transmittance over the clipped triangle, as over the parallelogram of about the same variances.
-float mean_transmittance() {
-  vec2 u = last_stops[1] - last_stops[0], v = last_stops[2] - last_stops[0];
-  vec2 at = last_stops[0] + u * middle_of_part.x + v * middle_of_part.y;
+// The parallelogram of about the same variances as the clipped triangle, about its middle.
+struct Parallelogram {
+  vec2 at, x, y;
+};
+
+Parallelogram about_triangle(vec2 corners[3]) {
+  vec2 u = corners[1] - corners[0], v = corners[2] - corners[0];
   float size = sqrt(part_of_triangle);
-  return transmittance_at(pattern, at, 0.70710678 * size * (u - v), 0.40824829 * size * (u + v), ALL_EDGES);
+  return Parallelogram(corners[0] + u * middle_of_part.x + v * middle_of_part.y, 0.70710678 * size * (u - v),
+                       0.40824829 * size * (u + v));
 }
 
-// Sets the linear map from pixels to stop points of the triangle's corners. A thin triangle counts as thicker, so that
-// the map does not become steep beside it. Returns false where the triangle is too small to have one.
-bool set_pattern_map() {
+float triangle_px() { return 0.5 * abs(cross2(pixels[1] - pixels[0], pixels[2] - pixels[0])); }
+
+// Whether pixels look up transmittances in a triangle; width: of the stop that a pixel sees.
+bool is_looked_up(float area, float width) { return area >= (width > WIDE ? LARGE_OF_WIDE_PX : LARGE_PX); }
+
+vec2 to_u, to_v;  // by pixels: the slopes of the triangle's coordinates
+
+// A thin triangle counts as thicker, so that maps do not become steep beside it.
+void set_slopes() {
   vec2 a = pixels[1] - pixels[0], b = pixels[2] - pixels[0];
-  vec2 u = last_stops[1] - last_stops[0], v = last_stops[2] - last_stops[0];
-  float area = 0.5 * abs(cross2(a, b));
-  float width = sqrt(0.5 * abs(cross2(u, v)) / max(area, 1e-12));
-  if (area < (width > WIDE ? LARGE_OF_WIDE_PX : LARGE_PX)) return false;
-  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * area / longest;
-  float extra = thickness < THIN ? THIN * THIN - thickness * thickness : 0.0;
+  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * triangle_px() / longest;
+  float least = least_thickness(longest);
+  float extra = thickness < least ? least * least - thickness * thickness : 0.0;
   float aa = dot(a, a) + extra, bb = dot(b, b) + extra, ab = dot(a, b), scale = 1.0 / (aa * bb - ab * ab);
-  vec2 to_u = (a * bb - b * ab) * scale, to_v = (b * aa - a * ab) * scale;
+  to_u = (a * bb - b * ab) * scale;
+  to_v = (b * aa - a * ab) * scale;
+}
+
+// The linear map from pixels to points that are given at the triangle's corners.
+struct PointMap {
+  vec2 x, y, origin;
+};
+
+PointMap map_to(vec2 at[3]) {
+  vec2 u = at[1] - at[0], v = at[2] - at[0];
   vec2 middle = (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  vec2 point = (at[0] + at[1] + at[2]) * (1.0 / 3.0);
+  PointMap map;
+  map.x = u * to_u.x + v * to_v.x;
+  map.y = u * to_u.y + v * to_v.y;
+  map.origin = point - map.x * middle.x - map.y * middle.y;
+  return map;
+}
+
+// The edges that have fringes in the triangle.
+uint edges_of(PointMap map) {
   vec2 at = (last_stops[0] + last_stops[1] + last_stops[2]) * (1.0 / 3.0);
-  pattern_map[0] = u * to_u.x + v * to_v.x;
-  pattern_map[1] = u * to_u.y + v * to_v.y;
-  pattern_map[2] = at - pattern_map[0] * middle.x - pattern_map[1] * middle.y;
   float radius = 0.0;
   for (int k = 0; k < 3; ++k) radius = max(radius, length(last_stops[k] - at));
-  radius += length(pattern_map[0]) + length(pattern_map[1]);  // pixels reach beyond the triangle
-  pattern_map[3] = vec2(uintBitsToFloat(active_edges(pattern, at, radius)), 0.0);
+  radius += length(map.x) + length(map.y);  // pixels reach beyond the triangle
+  return active_edges(pattern, at, radius);
+}
+
+// The width of the stop, or of another plane, that a pixel sees.
+float width_of(vec2 at[3]) {
+  return sqrt(0.5 * abs(cross2(at[1] - at[0], at[2] - at[0])) / max(triangle_px(), 1e-12));
+}
+
+#ifdef OCCLUDERS
+#include "cut_occluders.glsl"
+#else
+// The mean transmittance over the clipped triangle.
+float mean_transmittance() {
+  Parallelogram mean = about_triangle(last_stops);
+  return transmittance_at(pattern, mean.at, mean.x, mean.y, ALL_EDGES);
+}
+
+// Sets the map from pixels to stop points. Returns false where the triangle is too small to have one.
+bool set_pattern_map() {
+  if (!is_looked_up(triangle_px(), width_of(last_stops))) return false;
+  set_slopes();
+  PointMap map = map_to(last_stops);
+  uint edge_bits = edges_of(map);
+  record_pattern = edge_bits == 0u ? 0u : pattern;
+  pattern_map[0] = map.x;
+  pattern_map[1] = map.y;
+  pattern_map[2] = map.origin;
+  pattern_map[3] = vec2(uintBitsToFloat(edge_bits), 0.0);
   return true;
 }
 
+void find_occluders() { is_dimmed = pattern != 0u; }
+#endif
+
 void list_part(float flux, float fraction, vec2 gradient) {
-  float area = abs(0.5 * cross2(pixels[1] - pixels[0], pixels[2] - pixels[0]));
+  float area = triangle_px();
   bool is_point = in_one_pixel();
   vec2 from, to;
   farthest_corners(from, to);
   bool is_line = area < SLIVER * dot(to - from, to - from);
-  if (pattern != 0u) {
-    if (!is_point && !is_line && set_pattern_map())
-      record_pattern = floatBitsToUint(pattern_map[3].x) == 0u ? 0u : pattern;
-    else
-      flux *= mean_transmittance();
-  }
+#ifdef OCCLUDERS
+  if (is_dimmed) flux *= set_occluders(is_point, is_line);
+#else
+  if (is_dimmed && (is_point || is_line || !set_pattern_map())) flux *= mean_transmittance();
+#endif
   if (is_point) {
     list_point(polygon[0], flux * fraction);
     return;
@@ -94,7 +160,8 @@ void list_triangle(vec2 gradient) {
   clip_triangle(pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
   float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
-  if (pattern != 0u) {
+  find_occluders();
+  if (is_dimmed) {
     for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
     find_middle(fraction);
   }
@@ -108,6 +175,9 @@ void set_part(vec2 low, float size, bool is_second) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
   for (int k = 0; k < 3; ++k) {
     vec2 at = low + size * corners[k == 0 ? 0 : is_second ? k + 1 : k];
+#ifdef OCCLUDERS
+    front_of_triangle[k] = front_at(at);
+#endif
     set_weights(at, true, true);
     vec4 ray = ray_between();
     transmissions[k] = max(ray.z, 0.0);
@@ -127,6 +197,9 @@ bool set_whole(uvec3 t) {
     if (failed(ray)) return false;
     pixels[k] = ray.xy - vec2(base);
     transmissions[k] = ray.z;
+#ifdef OCCLUDERS
+    front_of_triangle[k] = point_of_ray(t[k], POINT_FRONT);
+#endif
   }
   set_triangle(t, crossings_of(item));
   return true;
@@ -144,6 +217,9 @@ void main() {
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
   set_cell(v);
   pattern = pattern_of(item);
+#ifdef OCCLUDERS
+  grid_box = final_box(group_of(item));
+#endif
   bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   float area = any_failed ? 0.0 : 0.5 * cross2(rays[v.z].xy - rays[v.x].xy, rays[v.w].xy - rays[v.y].xy);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The path of an item, for ../trace.glsl.
 #include "../start.glsl"
+#include "item_start.glsl"
 
-#define START_NUMBERS 14u
 uint path_item;
 
-float start_real(int k) {
-  if (k == START_PIXEL_X || k == START_PIXEL_Y) return item_float(path_item, 12u + uint(k - START_PIXEL_X));
-  return starts[START_NUMBERS * item_word(path_item, 11u) + uint(k)];
-}
+float start_real(int k) { return start_real_of(path_item, k); }
 
 #include "../trace.glsl"
 

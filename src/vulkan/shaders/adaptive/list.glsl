@@ -6,9 +6,16 @@
 // the bounds, first and last column and row.
 // A polygon with a stop pattern has four more corners: how far the stop point moves with a pixel across and down, the
 // stop point at the base's upper corner, and the bits of the edges that have fringes in it.
+// In frames with occluders (occluders.glsl) the high bits are a mask. If it is not 0, the next corner has the bits of the
+// edges, and the pattern's number with that of the last crossing in the highest bits. A map of three corners follows for
+// each point that the mask needs.
 #define RECORD_WORDS 16u
 #define PATTERN_SHIFT 8u
-#define MAP_CORNERS 4u
+#ifdef OCCLUDERS
+#define MOST_MAP_CORNERS 13u
+#else
+#define MOST_MAP_CORNERS 4u
+#endif
 
 float triangle_weight;  // flux of half a cell of transmission 1
 vec3 gain;
@@ -25,13 +32,14 @@ bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
   return last.x >= first.x && last.y >= first.y;
 }
 
-uint record_pattern = 0u;  // of the polygon to be listed; 0: none
-vec2 pattern_map[MAP_CORNERS];
+uint record_pattern = 0u;  // of the polygon to be listed, or its mask; 0: none
+uint map_corners = 4u;
+vec2 pattern_map[MOST_MAP_CORNERS];
 
 // Returns the first corner's place; corners are written by the caller. OVERFLOW: -1.
 int begin_record(Density density, uint count, ivec4 box) {
   uint at = atomicAdd(counters[COUNT_POLYGONS], 1u);
-  uint corners = record_pattern == 0u ? count : count + MAP_CORNERS;
+  uint corners = record_pattern == 0u ? count : count + map_corners;
   uint first = atomicAdd(counters[COUNT_CORNERS], corners);
   if (at >= p.large_capacity || first + corners > p.corner_capacity) {
     atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_POLYGONS);

@@ -8,6 +8,11 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "item_path.glsl"
 #include "../iris.glsl"
 #include "pattern.glsl"
+#ifdef OCCLUDERS
+#include "../coverage.glsl"
+#include "front.glsl"
+#include "occluders.glsl"
+#endif
 
 #define BOUND_LARGEST_DENSITY_CHANGE 2.0
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
@@ -22,6 +27,9 @@ shared float transmissions[256];
 shared float rims[256];
 shared vec2 stops[256];
 shared vec2 last_stops[256];  // of items with a stop pattern: where the ray crosses the stop last
+#ifdef OCCLUDERS
+shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
+#endif
 shared float densities[256];  // of cells, with the sign of their area; 0: none
 shared vec4 sums_of[256];
 shared uint histogram[BINS];
@@ -167,25 +175,52 @@ float roughness_px(Cell cell) {
   return 2.0 * across * min(rough * unit, 1.0 + unit) * min(cell.open, 1.0);
 }
 
-// The squared displacement, in pixels, of what a stop pattern shows by the bends of the maps to the frame and the stop.
-float squared_bend_of_map(uint k) {
+// The points of a ray in the plane that a map leads to.
+vec2 seen_point(uint k, bool is_dirt) {
+#ifdef OCCLUDERS
+  if (is_dirt) return dirt_points[k];
+#endif
+  return last_stops[k];
+}
+
+vec2 seen_difference(uint k, uint step_by, bool is_dirt) {
+  return seen_point(k - step_by, is_dirt) - 2.0 * seen_point(k, is_dirt) + seen_point(k + step_by, is_dirt);
+}
+
+// The squared displacement, in pixels, of what a stop pattern or dirt shows by the bends of the maps to the frame and to
+// its plane.
+float squared_bend_of_map(uint k, bool is_dirt) {
   uint inside = ray_inside();
   if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return 1.0;
   vec2 px = places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u];
   vec2 py = places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u];
-  vec2 sx = last_stops[k + 1u] - last_stops[k] + last_stops[k + 17u] - last_stops[k + 16u];
-  vec2 sy = last_stops[k + 16u] - last_stops[k] + last_stops[k + 17u] - last_stops[k + 1u];
+  vec2 sa = seen_point(k, is_dirt), sb = seen_point(k + 1u, is_dirt);
+  vec2 sc = seen_point(k + 17u, is_dirt), sd = seen_point(k + 16u, is_dirt);
+  vec2 sx = sb - sa + sc - sd, sy = sd - sa + sc - sb;
   float det = cross2(sx, sy), sum = 0.0;
   if (det == 0.0) return 1.0;
   for (uint axis = 0u; axis < 2u; ++axis) {
     uint by = axis == 0u ? 1u : 16u;
-    vec2 of_stop = last_stops[inside - by] - 2.0 * last_stops[inside] + last_stops[inside + by];
+    vec2 of_stop = seen_difference(inside, by, is_dirt);
     vec2 of_pixel = places[inside - by] - 2.0 * places[inside] + places[inside + by];
     vec2 off = (px * cross2(of_stop, sy) + py * cross2(sx, of_stop)) / det - of_pixel;
     sum += dot(off, off) / 64.0;
   }
   return min(sum, 1.0);
 }
+
+#ifdef OCCLUDERS
+// The same as roughness_px() for the edges of dirt's shadows: their squared contrast and length, by pixel.
+float dirt_roughness_px(Cell cell) {
+  uint k = gl_LocalInvocationIndex;
+  if ((p.flags & (FLAG_DIRT_IN_STOP | FLAG_DIRT_ON_FRONT)) == 0u) return 0.0;
+  vec2 a = dirt_points[k], b = dirt_points[k + 1u], c = dirt_points[k + 17u], d = dirt_points[k + 16u];
+  Disc disc = disc_of(a, b, c, d, 0.0);
+  if (is_clean(disc.middle, disc.radius)) return 0.0;
+  float pixel_mm = sqrt(0.5 * abs(cross2(c - a, d - b)) / max(abs(cell.area_px), 1.0));
+  return cell.open * min(dirt_float(DIRT_EDGES_PER_MM) * pixel_mm, LARGEST_ROUGHNESS);
+}
+#endif
 
 // The squared part of a cell's density by which a linear function is off.
 float squared_bend(uint k) {
@@ -251,6 +286,12 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
   rims[k] = ray.w;
   stops[k] = farthest;
   if (pattern != 0u) last_stops[k] = stop_points[sharp_crossings];
+#ifdef OCCLUDERS
+  if ((p.flags & FLAG_DIRT_ON_FRONT) != 0u)
+    dirt_points[k] = front_point(item, at);
+  else if ((p.flags & FLAG_DIRT_IN_STOP) != 0u)
+    dirt_points[k] = stop_points[crossings_of_group - 1u] * dirt_float(DIRT_MM_A_UNIT);
+#endif
   barrier();
 }
 
@@ -264,6 +305,13 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
   float merged = cell.has_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
   if (pattern != 0u && cell.is_drawn)
     merged += area * (roughness_px(cell) * min(moved_squared, 1.0) + cell.open * pattern_difference(pattern));
+#ifdef OCCLUDERS
+  if (cell.is_drawn) {
+    float rough = dirt_roughness_px(cell);
+    inside += area * rough * squared_bend_of_map(k, true);
+    merged += area * rough * min(moved_squared, 1.0);
+  }
+#endif
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
                               : inside_frame * vec4(value * value * inside, value * value * merged,
                                                     cell.flux * cell.open, area * cell.open);
@@ -281,7 +329,7 @@ vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
   float sharp = 0.0;
   if (pattern != 0u && cell.is_drawn) {
     float area = max(abs(cell.area_px), 1.0);
-    edge += area * roughness_px(cell) * squared_bend_of_map(gl_LocalInvocationIndex);
+    edge += area * roughness_px(cell) * squared_bend_of_map(gl_LocalInvocationIndex, false);
     sharp = area * cell.open * pattern_difference(pattern);
   }
   sums_of[gl_LocalInvocationIndex] = inside_frame * value * value * vec4(edge, sharp, 0.0, 0.0);

@@ -13,6 +13,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #ifdef PATTERNS
 #include "../iris.glsl"
 #include "pattern.glsl"
+#ifdef OCCLUDERS
+#include "occluders.glsl"
+#endif
 #endif
 
 // Edges are taken in fours rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so
@@ -111,10 +114,89 @@ float covered_part(uint first, uint count, vec2 pixel) {
 #ifdef PATTERNS
 uint corners_in(uint word) { return word & CORNERS_MASK; }
 
-shared uint patterns_of_polygons[32];
-shared vec2 maps[96];  // of the pixels of the tile
+#ifdef OCCLUDERS
+#define POLYGON_MAP_CORNERS 12u
+#else
+#define POLYGON_MAP_CORNERS 3u
+#endif
+shared uint patterns_of_polygons[32];  // or masks
+shared vec2 maps[32u * POLYGON_MAP_CORNERS];  // of the pixels of the tile
 shared uint edge_bits_of_polygons[32];
 
+#ifdef OCCLUDERS
+shared uint pattern_words[32];  // a pattern's number, and that of the last crossing
+
+// The product of a polygon's transmittances at a place in the picture, over a part of a pixel's sides. map: where its first
+// map begins in large_corners.
+float product_at(uint mask, uint map, uint pattern, uint edge_bits, vec2 place, float size) {
+  uint last = pattern >> LAST_SHIFT;
+  float all = 1.0;
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!needs_point(mask, k, last)) continue;
+    vec2 x = large_corners[map], y = large_corners[map + 1u], at = large_corners[map + 2u] + x * place.x + y * place.y;
+    all *= transmittance_of_point(mask, k, last, pattern & ~(3u << LAST_SHIFT), edge_bits, at, size * x, size * y);
+    map += 3u;
+  }
+  return all;
+}
+
+// A polygon's transmittance in a pixel.
+float transmittance_of(uint polygon, vec2 corner) {
+  uint word = RECORD_WORDS * polygon, mask = large[word + 9u] >> PATTERN_SHIFT;
+  if (mask == 0u) return 1.0;
+  uint map = large[word + 8u] + corners_in(large[word + 9u]);
+  uint edge_bits = floatBitsToUint(large_corners[map].x), pattern = floatBitsToUint(large_corners[map].y);
+  vec2 middle = corner + 0.5;
+  partly_covering = 0u;
+  float whole = product_at(mask, map + 1u, pattern, edge_bits, middle, 1.0);
+  if (!is_seen_in_parts()) return whole;
+  float sum = 0.0;
+  for (int k = 0; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k)
+    sum += product_at(mask, map + 1u, pattern, edge_bits, middle + part_of_pixel(k), 1.0 / float(PARTS_OF_PIXEL));
+  return sum / float(PARTS_OF_PIXEL * PARTS_OF_PIXEL);
+}
+
+// The same of a prepared polygon.
+float prepared_product_at(uint j, vec2 place, float size) {
+  uint mask = patterns_of_polygons[j], pattern = pattern_words[j], last = pattern >> LAST_SHIFT;
+  uint map = POLYGON_MAP_CORNERS * j;
+  float all = 1.0;
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!needs_point(mask, k, last)) continue;
+    vec2 x = maps[map], y = maps[map + 1u], at = maps[map + 2u] + x * place.x + y * place.y;
+    all *= transmittance_of_point(mask, k, last, pattern & ~(3u << LAST_SHIFT), edge_bits_of_polygons[j], at, size * x,
+                                  size * y);
+    map += 3u;
+  }
+  return all;
+}
+
+float prepared_transmittance(uint j, vec2 place) {
+  partly_covering = 0u;
+  float whole = prepared_product_at(j, place, 1.0);
+  if (!is_seen_in_parts()) return whole;
+  float sum = 0.0;
+  for (int k = 0; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k)
+    sum += prepared_product_at(j, place + part_of_pixel(k), 1.0 / float(PARTS_OF_PIXEL));
+  return sum / float(PARTS_OF_PIXEL * PARTS_OF_PIXEL);
+}
+
+// Prepares the maps of a polygon, which begin at a corner.
+void prepare_maps(uint j, uint first, vec2 middle) {
+  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first].x);
+  pattern_words[j] = floatBitsToUint(large_corners[first].y);
+  uint mask = patterns_of_polygons[j], from = first + 1u, to = POLYGON_MAP_CORNERS * j;
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!needs_point(mask, k, pattern_words[j] >> LAST_SHIFT)) continue;
+    vec2 x = large_corners[from], y = large_corners[from + 1u];
+    maps[to] = x;
+    maps[to + 1u] = y;
+    maps[to + 2u] = large_corners[from + 2u] + x * middle.x + y * middle.y;
+    from += 3u;
+    to += 3u;
+  }
+}
+#else
 float transmittance_of(uint polygon, vec2 corner) {
   uint word = RECORD_WORDS * polygon, pattern = large[word + 9u] >> PATTERN_SHIFT;
   if (pattern == 0u) return 1.0;
@@ -123,6 +205,21 @@ float transmittance_of(uint polygon, vec2 corner) {
   return transmittance_at(pattern, large_corners[map + 2u] + x * middle.x + y * middle.y, x, y,
                           floatBitsToUint(large_corners[map + 3u].x));
 }
+
+float prepared_transmittance(uint j, vec2 place) {
+  vec2 x = maps[3u * j], y = maps[3u * j + 1u];
+  return transmittance_at(patterns_of_polygons[j], maps[3u * j + 2u] + x * place.x + y * place.y, x, y,
+                          edge_bits_of_polygons[j]);
+}
+
+void prepare_maps(uint j, uint first, vec2 middle) {
+  vec2 x = large_corners[first], y = large_corners[first + 1u];
+  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first + 3u].x);
+  maps[3u * j] = x;
+  maps[3u * j + 1u] = y;
+  maps[3u * j + 2u] = large_corners[first + 2u] + x * middle.x + y * middle.y;
+}
+#endif
 #else
 uint corners_in(uint word) { return word; }
 #endif
@@ -186,21 +283,8 @@ void prepare(uint from, uint count) {
   planes[j] = vec3(gradient, record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point));
 #ifdef PATTERNS
   patterns_of_polygons[j] = large[word + 9u] >> PATTERN_SHIFT;
-  if (patterns_of_polygons[j] == 0u) return;
-  vec2 x = large_corners[first + corners], y = large_corners[first + corners + 1u], middle = origin + 0.5;
-  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first + corners + 3u].x);
-  maps[3u * j] = x;
-  maps[3u * j + 1u] = y;
-  maps[3u * j + 2u] = large_corners[first + corners + 2u] + x * middle.x + y * middle.y;
+  if (patterns_of_polygons[j] != 0u) prepare_maps(j, first + corners, origin + 0.5);
 #endif
-}
-
-// The part of a pixel on the positive side of an edge that crosses it.
-float half_plane(vec2 slope, float at_middle) {
-  float longer = max(abs(slope.x), abs(slope.y)), shorter = min(abs(slope.x), abs(slope.y)), off = abs(at_middle);
-  float rest = 0.5 * (longer + shorter) - off;
-  float part = off <= 0.5 * (longer - shorter) ? 0.5 + off / longer : 1.0 - rest * rest / (2.0 * longer * shorter);
-  return at_middle >= 0.0 ? part : 1.0 - part;
 }
 
 // How a pixel lies to the edges of a polygon: outside one, or across some, and the last of these.
@@ -239,11 +323,7 @@ float prepared_value(uint j, uint polygon, ivec2 at, ivec2 pixel) {
   if (crossing.count > 1u) return value_at(polygon, pixel);
   float covered = crossing.count == 0u ? 1.0 : half_plane(crossing.edge.xy, crossing.edge.z);
 #ifdef PATTERNS
-  uint pattern = patterns_of_polygons[j];
-  if (pattern != 0u) {
-    vec2 x = maps[3u * j], y = maps[3u * j + 1u];
-    covered *= transmittance_at(pattern, maps[3u * j + 2u] + x * place.x + y * place.y, x, y, edge_bits_of_polygons[j]);
-  }
+  if (patterns_of_polygons[j] != 0u) covered *= prepared_transmittance(j, place);
 #endif
   return covered * (dot(planes[j].xy, place) + planes[j].z);
 }

@@ -3,6 +3,12 @@
 // because all corners lie beyond a curved edge.
 #include "near_stop.glsl"
 #include "pattern.glsl"
+#ifdef OCCLUDERS
+#include "../start.glsl"
+#include "item_start.glsl"
+#include "front.glsl"
+#include "occluders.glsl"
+#endif
 
 bool may_be_open(float low, float high) { return low <= max(0.0, high - low); }
 
@@ -33,6 +39,41 @@ int region_of_rays(uint pattern, uint a, uint b, uint c, uint d, uint crossing_c
   uint last = crossing_count - 1u;
   return region_of(pattern, crossing(a, last), crossing(b, last), crossing(c, last), crossing(d, last));
 }
+
+#ifdef OCCLUDERS
+vec4 grid_box;  // of the item's rays
+
+// A place in the window, from one in the grid.
+vec2 entrance_at(vec2 place) { return grid_box.xy + grid_box.zw * (place / float(side - 1u)); }
+
+vec2 point_of_ray(uint ray, uint k) {
+  if (k != POINT_FRONT) return crossing(ray, k);
+  uint in_grid = ray - first_ray;
+  return front_point(item, entrance_at(vec2(in_grid % side, in_grid / side)));
+}
+
+// The extent of a pixel's image, from the sides of a cell in pixels and in its image: pixels at the cell's edge see as far
+// beyond it. A cell smaller than a pixel does not show what it is.
+float pixel_extent_of(vec2 across, vec2 down, vec2 seen_across, vec2 seen_down) {
+  float most = length(seen_across) + length(seen_down), det = cross2(across, down);
+  vec2 x = seen_across * down.y - seen_down * across.y, y = seen_down * across.x - seen_across * down.x;
+  float extent = length(x) + length(y);
+  return extent < most * abs(det) ? extent / abs(det) : most;
+}
+
+// Whether dirt may dim the cell of four rays in order.
+bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
+  vec2 across = 0.5 * (rays[b].xy - rays[a].xy + rays[c].xy - rays[d].xy);
+  vec2 down = 0.5 * (rays[d].xy - rays[a].xy + rays[c].xy - rays[b].xy);
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!has_dirt_at(k, crossing_count)) continue;
+    vec2 qa = point_of_ray(a, k), qb = point_of_ray(b, k), qc = point_of_ray(c, k), qd = point_of_ray(d, k);
+    float pixel_extent = pixel_extent_of(across, down, 0.5 * (qb - qa + qc - qd), 0.5 * (qd - qa + qc - qb));
+    if (is_dirty(disc_of(qa, qb, qc, qd, pixel_extent))) return true;
+  }
+  return false;
+}
+#endif
 
 // The state of a cell with a stop pattern: cells where the pattern varies are drawn in parts.
 int patterned_state(uvec4 v, uint crossing_count, uint pattern) {

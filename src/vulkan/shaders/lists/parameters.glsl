@@ -8,6 +8,7 @@ layout(push_constant) uniform Parameters {
   uint tiles_across, tiles_down;
   uint large_capacity, list_capacity;
   int tile_side;  // pixels
+  uint list_part;  // polygons of a task, at most
 }
 p;
 

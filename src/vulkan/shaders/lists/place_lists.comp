@@ -5,15 +5,13 @@
 layout(local_size_x = 64) in;
 #include "parameters.glsl"
 
-#define LIST_PART 1024u  // polygons of a task, at most
-
 void make_tasks(uint tile, uint first, uint count) {
-  uint parts = max((count + LIST_PART - 1u) / LIST_PART, 1u), slot = 0u;
+  uint parts = max((count + p.list_part - 1u) / p.list_part, 1u), slot = 0u;
   if (parts > 1u) slot = 1u + atomicAdd(counters[COUNT_SPLIT], 1u);
   uint place = (tile % p.tiles_across) | (tile / p.tiles_across) << 16u;
   uint at = atomicAdd(counters[COUNT_TASKS], parts);
   for (uint k = 0u; k < parts; ++k) {
-    uint from = k * LIST_PART, end = min(count, from + LIST_PART);
+    uint from = k * p.list_part, end = min(count, from + p.list_part);
     tile_tasks[at + k] = uvec4(place, first + from, first + end, 2u * slot + (k == 0u ? 1u : 0u));
   }
 }
