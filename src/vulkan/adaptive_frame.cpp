@@ -167,11 +167,12 @@ void AdaptiveFrame::upload_items(const Frame& band) {
 }
 
 // Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all), and each polygon of a list may take
-// several for every stroke about a point, at every crossing of the stop.
+// several for every point, and for every stroke about a point, in each part of a pixel.
 std::uint32_t AdaptiveFrame::list_part() const {
-  constexpr std::uint32_t kTurns = 60000, kTurnsAStroke = 51, kLeast = 32;
-  if (!job_.dirt) return TileLists::kMostOfTask;
-  return std::clamp(kTurns / (kTurnsAStroke * (job_.dirt->most_about_cell() + 1)), kLeast, TileLists::kMostOfTask);
+  constexpr std::uint32_t kTurns = 60000, kTurnsAPolygon = 120, kTurnsAStroke = 51, kLeast = 32;
+  if (!job_.dirt && !has_picture()) return TileLists::kMostOfTask;
+  const std::uint32_t strokes = job_.dirt ? job_.dirt->most_about_cell() + 1 : 0;
+  return std::clamp(kTurns / (kTurnsAPolygon + kTurnsAStroke * strokes), kLeast, TileLists::kMostOfTask);
 }
 
 // The histogram, then the sums of the tiles that are drawn in parts.
@@ -224,7 +225,7 @@ void AdaptiveFrame::clear_lists() {
 void AdaptiveFrame::dispatch_at(std::uint32_t level, Program program, GroupCount groups) {
   AdaptiveParameters p = parameters_;
   p.level = level;
-  device_.dispatch(program, p, groups);
+  device_.dispatch(for_iris(program), p, groups);
 }
 
 void AdaptiveFrame::search() {
@@ -379,6 +380,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.group_count = narrow(job_.groups.size());
   p.level = kSearchLevels;
   p.flags = flags();
+  p.picture = has_picture() ? job_.patterns->picture + 1 : 0U;
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
   p.least_peak = static_cast<float>(job_.least_peak);

@@ -64,8 +64,15 @@ class AdaptiveFrame {
   [[nodiscard]] std::uint64_t sums_bytes() const;
   [[nodiscard]] std::uint32_t flags() const;
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
-  // The shader for frames with dirt, or for those without.
-  [[nodiscard]] Shader choose(Shader clean, Shader occluded) const { return job_.dirt ? occluded : clean; }
+  [[nodiscard]] bool has_picture() const { return job_.patterns && job_.patterns->picture != DevicePatterns::kNone; }
+  // The shader for frames with dirt or a picture as the iris, or for those without.
+  [[nodiscard]] Shader choose(Shader clean, Shader occluded) const {
+    return job_.dirt || has_picture() ? occluded : clean;
+  }
+  [[nodiscard]] Program for_iris(Program program) const {
+    program.has_picture = has_picture();
+    return program;
+  }
   // Sets what is drawn: the whole frame, or some of its rows.
   void prepare(const Frame& rows);
   // Submissions: return false if a buffer did not suffice. Rows are drawn into the image, from its first row on.
@@ -78,8 +85,10 @@ class AdaptiveFrame {
   template <class Try>
   [[nodiscard]] bool grow_until(const Try& succeeds);
   void draw_in_bands(Image& image, const Context& context);
-  void dispatch(Program program, GroupCount groups) { device_.dispatch(program, parameters_, groups); }
-  void dispatch_indirect(Program program, std::uint64_t byte) { device_.dispatch_indirect(program, parameters_, byte); }
+  void dispatch(Program program, GroupCount groups) { device_.dispatch(for_iris(program), parameters_, groups); }
+  void dispatch_indirect(Program program, std::uint64_t byte) {
+    device_.dispatch_indirect(for_iris(program), parameters_, byte);
+  }
   void dispatch_at(std::uint32_t level, Program program, GroupCount groups);
   [[nodiscard]] GroupCount rows_of(std::uint64_t groups) const;
 

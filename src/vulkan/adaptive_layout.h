@@ -17,6 +17,7 @@ struct AdaptiveParameters {
   std::int32_t width = 0, height = 0;
   std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, cut_capacity = 0;
   float budget = 0, least_peak = 0, front_gap_mm = 0;
+  std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
 };
 
 // Bits of the flags, besides kCircle.

@@ -32,6 +32,7 @@ constexpr double kNanoseconds = 1e9;  // a second
 constexpr std::uint64_t kInvocationsAGroup = 64;
 constexpr std::uint32_t kMostStages = 256;
 constexpr std::uint32_t kGeometryConstant = 0;  // the number of GEOMETRY in shaders/trace.glsl
+constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders/adaptive/common.glsl
 
 }  // namespace
 
@@ -89,9 +90,12 @@ vk::Pipeline DeviceContext::pipeline_of(Program program) {
   if (*pipeline != vk::Pipeline{}) return *pipeline;
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
-  const auto geometry = static_cast<std::uint32_t>(program.geometry);
-  const vk::SpecializationMapEntry entry(kGeometryConstant, 0, sizeof geometry);
-  const vk::SpecializationInfo constants(1, &entry, sizeof geometry, &geometry);
+  constexpr std::uint32_t kSize = sizeof(std::uint32_t);
+  const std::array<std::uint32_t, 2> values{static_cast<std::uint32_t>(program.geometry),
+                                            program.has_picture ? VK_TRUE : VK_FALSE};
+  const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
+                           vk::SpecializationMapEntry(kPictureConstant, kSize, kSize)};
+  const vk::SpecializationInfo constants(entries.size(), entries.data(), sizeof values, values.data());
   const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &constants);
   pipeline = device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
   return *pipeline;

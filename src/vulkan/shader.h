@@ -44,16 +44,19 @@ enum class Shader : std::uint8_t {
 };
 inline constexpr std::size_t kShaders = 29;
 
-// A shader, and for those that trace rays the surfaces that they must handle: drivers leave out the code of others.
+// A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
+// surfaces, for those of `adaptive` whether the iris is a picture.
 struct Program {
   Program(Shader which, PathGeometry surfaces = PathGeometry::General) : shader(which), geometry(surfaces) {}
 
   Shader shader;
   PathGeometry geometry;
+  bool has_picture = false;
 };
-inline constexpr std::size_t kPrograms = 3 * kShaders;
+inline constexpr std::size_t kPrograms = 6 * kShaders;
 [[nodiscard]] inline std::size_t number_of(Program program) {
-  return 3 * static_cast<std::size_t>(program.shader) + static_cast<std::size_t>(program.geometry);
+  return 6 * static_cast<std::size_t>(program.shader) + 2 * static_cast<std::size_t>(program.geometry) +
+         (program.has_picture ? 1 : 0);
 }
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);

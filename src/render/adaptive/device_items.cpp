@@ -141,9 +141,13 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
 }  // namespace
 
 std::string device_lacks(const PlannedFrame& planned) {
-  if (planned.lens.iris.field) return "a picture as the iris is";
+  const bool rings = planned.settings.ringing.mode != RingingMode::None;
+  if (const auto& field = planned.lens.iris.field) {
+    if (field->has_half_tones()) return "a picture with half-tones as the iris is";
+    if (rings) return "a picture as the iris with ringing is";
+  }
   const std::shared_ptr<const DirtField>& dirt = planned.plan.dirt;
-  if (dirt && !dirt->has_picture() && planned.settings.ringing.mode != RingingMode::None) return "dirt with ringing is";
+  if (dirt && !dirt->has_picture() && rings) return "dirt with ringing is";
   return {};
 }
 
@@ -161,8 +165,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
   RenderStatistics statistics;
   statistics.method = "adaptive";
   const IrisShape iris(planned.lens.iris);
-  const auto patterns =
-      all.patterns.empty() ? nullptr : planned.cache.section<KeptPatterns>({})->get(all.patterns, iris);
+  const auto patterns = planned.cache.section<KeptPatterns>({})->get(all.patterns, planned.lens.iris);
   const auto dirt = planned.cache.section<KeptDeviceDirt>({})->get(plan->dirt);
   const double front_gap_mm =
       dirt && !all.windows.empty() ? plan->dirt->site().front_z_mm - all.windows.front().z_mm : 0.0;

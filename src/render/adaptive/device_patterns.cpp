@@ -50,10 +50,9 @@ double squared_slope(const std::vector<float>& table) {
 }
 
 // The levels of an image pyramid one after the other: DownsampledPicture.
-std::vector<float> texture_table(const PatternTexture& texture) {
-  std::vector<float> table(texture.samples().begin(), texture.samples().end());
+std::vector<float> pyramid_table(std::vector<float> table, std::size_t finest_side) {
   std::size_t fine = 0;
-  for (auto side = static_cast<std::size_t>(texture.side()); side % 2 == 0 && side > 2; side /= 2) {
+  for (auto side = finest_side; side % 2 == 0 && side > 2; side /= 2) {
     const auto at = [&](std::size_t x, std::size_t y) { return table[fine + y * side + x]; };
     const std::size_t half = side / 2, next = fine + side * side;
     for (std::size_t y = 0; y < half; ++y)
@@ -63,6 +62,43 @@ std::vector<float> texture_table(const PatternTexture& texture) {
     fine = next;
   }
   return table;
+}
+
+std::vector<float> texture_table(const PatternTexture& texture) {
+  return pyramid_table({texture.samples().begin(), texture.samples().end()}, static_cast<std::size_t>(texture.side()));
+}
+
+constexpr std::size_t kPictureSide = 1024;
+constexpr double kPictureExtent = 1.0625;  // stop radii: the rim, and what pixels see beyond it
+
+// Appends a picture as the iris, without half-tones. A sample of its transmittance is the mean over the sample's
+// square.
+void add_picture(const IrisShape& iris, DevicePatterns& to) {
+  constexpr double kPitch = 2.0 * kPictureExtent / kPictureSide;
+  to.picture = static_cast<std::uint32_t>(to.patterns.size());
+  std::vector<float> distances(kPictureSide * kPictureSide), transmittances(distances.size());
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    const double column = static_cast<double>(k % kPictureSide) + 0.5,
+                 row = static_cast<double>(k / kPictureSide) + 0.5;
+    const Vec2 at{column * kPitch - kPictureExtent, kPictureExtent - row * kPitch};
+    const double distance = iris.picture_distance(at);
+    distances[k] = static_cast<float>(distance);
+    transmittances[k] = static_cast<float>(std::clamp(0.5 - distance / kPitch, 0.0, 1.0));
+  }
+  double slopes = 0.0;
+  for (std::size_t k = kPictureSide; k < distances.size(); ++k) {
+    slopes += std::pow(transmittances[k] - transmittances[k - 1], 2.0) +
+              std::pow(transmittances[k] - transmittances[k - kPictureSide], 2.0);
+  }
+  DevicePattern one;
+  one.side = kPictureSide;
+  one.scale = one.outer_radius = static_cast<float>(kPictureExtent);
+  one.roughness = static_cast<float>(slopes / std::numbers::pi);
+  for (std::vector<float>* samples : {&transmittances, &distances}) {
+    one.table = static_cast<std::uint32_t>(to.tables.size());
+    to.tables.push_back(pyramid_table(std::move(*samples), kPictureSide));
+    to.patterns.push_back(one);
+  }
 }
 
 DevicePattern edge_pattern(const EdgePattern& edges, const std::vector<float>& table) {
@@ -123,6 +159,7 @@ std::shared_ptr<const DevicePatterns> device_patterns(const std::vector<std::sha
     one.table = at->second;
     made->patterns.push_back(one);
   }
+  if (iris.is_picture()) add_picture(iris, *made);
   return made;
 }
 
@@ -134,12 +171,14 @@ KeptPatterns::Identity KeptPatterns::identity_of(const StopPattern& pattern) {
 }
 
 std::shared_ptr<const DevicePatterns> KeptPatterns::get(const std::vector<std::shared_ptr<const StopPattern>>& wanted,
-                                                        const IrisShape& iris) {
+                                                        const Iris& iris) {
+  if (wanted.empty() && !iris.field) return nullptr;
   std::vector<Identity> identities;
   identities.reserve(wanted.size());
   for (const std::shared_ptr<const StopPattern>& pattern : wanted) identities.push_back(identity_of(*pattern));
-  if (!patterns_ || identities != identities_) patterns_ = device_patterns(wanted, iris);
+  if (!patterns_ || identities != identities_ || iris != iris_) patterns_ = device_patterns(wanted, IrisShape(iris));
   identities_ = std::move(identities);
+  iris_ = iris;
   return patterns_;
 }
 

@@ -19,9 +19,10 @@ class KeptPatterns {
   };
   explicit KeptPatterns(const Key& /*key*/) {}
 
-  // One for each of these, in their order; none is null, and none is of half-tones.
+  // One for each of these, in their order; none is null, and none is of half-tones. Those of a picture as the iris
+  // follow. Null if there are none at all.
   [[nodiscard]] std::shared_ptr<const DevicePatterns> get(const std::vector<std::shared_ptr<const StopPattern>>& wanted,
-                                                          const IrisShape& iris);
+                                                          const Iris& iris);
 
   [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -35,6 +36,7 @@ class KeptPatterns {
   [[nodiscard]] static Identity identity_of(const StopPattern& pattern);
 
   std::vector<Identity> identities_;
+  Iris iris_;  // for which the patterns were made
   std::shared_ptr<const DevicePatterns> patterns_;
 };
 

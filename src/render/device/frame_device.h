@@ -78,6 +78,9 @@ struct DevicePatterns {
   std::vector<std::shared_ptr<const void>> owners;  // of what the patterns were made from
   std::vector<DevicePattern> patterns;
   std::vector<std::vector<float>> tables;
+  // The number of a picture as the iris, or kNone: the pattern with this number is an image pyramid of its
+  // transmittance, and the next one has signed distances from its outline as samples, in stop radii.
+  std::uint32_t picture = kNone;
 };
 
 // A light: its ray through the lower corner of its window of the entrance plane, and the direction of the plane that
@@ -108,7 +111,7 @@ struct DeviceGroup {
 // A frame to be drawn with no more rays than an error needs, as `adaptive` does.
 struct AdaptiveJob {
   const Frame& frame;
-  const IrisShape& iris;  // not a picture
+  const IrisShape& iris;
   std::shared_ptr<const DevicePaths> paths;
   std::shared_ptr<const DevicePatterns> patterns;  // null: the iris is sharp in all items
   // Null: the lens is clean. A device keeps what it was given last, as DevicePaths.

@@ -62,8 +62,10 @@ void main() {
   if (!any_failed && outside_frame(v)) return;
   set_cell(v);
 #ifdef OCCLUDERS
-  // An open cell with dirt is drawn by cut.comp, but whole: its sides are as straight as those of other open cells.
-  if (how == STATE_OPEN && is_dirty(v.x, v.y, v.z, v.w, crossings_of(item))) {
+  // An open cell with occluders is drawn by cut.comp, but whole: its sides are as straight as those of others.
+  int region = any_failed ? REGION_VARYING : region_of_picture(v.x, v.y, v.z, v.w, crossings_of(item));
+  if (region == REGION_DARK) return;
+  if (how == STATE_OPEN && (region == REGION_VARYING || is_dirty(v.x, v.y, v.z, v.w, crossings_of(item)))) {
     list_cut(1u);
     return;
   }

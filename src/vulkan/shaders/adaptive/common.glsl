@@ -24,6 +24,9 @@ layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]
 layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
 layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
 
+// Whether the iris is a picture: the code for it is long, and other frames are compiled without.
+layout(constant_id = 1) const bool HAS_PICTURE = false;
+
 layout(push_constant) uniform Parameters {
   uint item_count, group_count, level, flags;
   uint bound_count;
@@ -32,6 +35,7 @@ layout(push_constant) uniform Parameters {
   float budget;         // squared error of the frame's samples, in peaks
   float least_peak;     // that errors are relative to
   float front_gap;      // from the entrance plane to that of dirt on the front, mm
+  uint picture;         // as the iris: its pattern's number, of which the next one is its distances; 0: none
 }
 p;
 

@@ -18,11 +18,14 @@ void find_occluders() {
   occluders = pattern != 0u ? OCCLUDED_BY_PATTERN : 0u;
   vec2 across = pixels[1] - pixels[0], down = pixels[2] - pixels[0];
   for (uint k = 0u; k < POINTS; ++k) {
-    if (!has_dirt_at(k, crossings_of(item))) continue;
+    bool may_be_dirty = has_dirt_at(k, crossings_of(item)), is_in_picture = HAS_PICTURE && k < crossings_of(item);
+    if (!may_be_dirty && !is_in_picture) continue;
     vec2 at[3];
     set_points(k, at);
     float pixel_extent = pixel_extent_of(across, down, at[1] - at[0], at[2] - at[0]);
-    if (is_dirty(disc_of(at[0], at[1], at[2], pixel_extent))) occluders |= OCCLUDED_BY_DIRT(k);
+    if (is_in_picture && region_of_picture(disc_of(at[0], at[1], at[2], pixel_extent)) != REGION_UNIFORM)
+      occluders |= OCCLUDED_BY_PICTURE(k);
+    if (may_be_dirty && is_dirty(disc_of(at[0], at[1], at[2], pixel_extent))) occluders |= OCCLUDED_BY_DIRT(k);
   }
   is_dimmed = occluders != 0u;
 }
@@ -72,11 +75,12 @@ float product_at(vec2 place, float size) {
 float pixel_transmittance() {
   vec2 middle = floor(polygon[0]) + 0.5;
   partly_covering = 0u;
-  float whole = product_at(middle, 1.0);
-  if (!is_seen_in_parts()) return whole;
   float sum = 0.0;
-  for (int k = 0; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k)
-    sum += product_at(middle + part_of_pixel(k), 1.0 / float(PARTS_OF_PIXEL));
+  for (int k = WHOLE_PIXEL; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k) {
+    float one = product_at(middle + part_of_pixel(k), width_of_part(k));
+    if (k == WHOLE_PIXEL && !is_seen_in_parts()) return one;
+    if (k != WHOLE_PIXEL) sum += one;
+  }
   return sum / float(PARTS_OF_PIXEL * PARTS_OF_PIXEL);
 }
 

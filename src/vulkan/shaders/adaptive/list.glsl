@@ -6,9 +6,9 @@
 // the bounds, first and last column and row.
 // A polygon with a stop pattern has four more corners: how far the stop point moves with a pixel across and down, the
 // stop point at the base's upper corner, and the bits of the edges that have fringes in it.
-// In frames with occluders (occluders.glsl) the high bits are a mask. If it is not 0, the next corner has the bits of the
-// edges, and the pattern's number with that of the last crossing in the highest bits. A map of three corners follows for
-// each point that the mask needs.
+// In frames with occluders (occluders.glsl) the high bits are a mask. If it is not 0, the next corner has the bits of
+// the edges, and the pattern's number with that of the last crossing in the highest bits. A map of three corners
+// follows for each point that the mask needs.
 #define RECORD_WORDS 16u
 #define PATTERN_SHIFT 8u
 #ifdef OCCLUDERS

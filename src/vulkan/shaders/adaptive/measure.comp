@@ -95,6 +95,12 @@ Cell cell_at(uint k, float flux_a_transmission) {
   cell.open = open_part(vec4(blocked_at(v.x), blocked_at(v.y), blocked_at(v.z), blocked_at(v.w)));
   cell.has_edge = cell.open < 1.0;
   if (pattern != 0u) cell.open *= transmitted_by(v);
+#ifdef OCCLUDERS
+  if (HAS_PICTURE) {
+    vec2 a = last_stops[v.x], b = last_stops[v.y], c = last_stops[v.z], d = last_stops[v.w];
+    cell.open *= picture_over(0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b));
+  }
+#endif
   cell.area_px = 0.5 * cross2(places[v.z] - places[v.x], places[v.w] - places[v.y]);
   cell.length_px = 0.7 * max(length(places[v.z] - places[v.x]), length(places[v.w] - places[v.y]));
   cell.flux = transmission * flux_a_transmission;
@@ -187,8 +193,8 @@ vec2 seen_difference(uint k, uint step_by, bool is_dirt) {
   return seen_point(k - step_by, is_dirt) - 2.0 * seen_point(k, is_dirt) + seen_point(k + step_by, is_dirt);
 }
 
-// The squared displacement, in pixels, of what a stop pattern or dirt shows by the bends of the maps to the frame and to
-// its plane.
+// The squared displacement, in pixels, of what a stop pattern or dirt shows by the bends of the maps to the frame and
+// to its plane.
 float squared_bend_of_map(uint k, bool is_dirt) {
   uint inside = ray_inside();
   if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return 1.0;
@@ -219,6 +225,18 @@ float dirt_roughness_px(Cell cell) {
   if (is_clean(disc.middle, disc.radius)) return 0.0;
   float pixel_mm = sqrt(0.5 * abs(cross2(c - a, d - b)) / max(abs(cell.area_px), 1.0));
   return cell.open * min(dirt_float(DIRT_EDGES_PER_MM) * pixel_mm, LARGEST_ROUGHNESS);
+}
+#endif
+
+#ifdef OCCLUDERS
+// The same for a picture as the iris, whose edges are sharp.
+float picture_roughness_px(Cell cell) {
+  uint k = gl_LocalInvocationIndex;
+  if (!HAS_PICTURE) return 0.0;
+  float stop_area = abs(cross2(last_stops[k + 17u] - last_stops[k], last_stops[k + 16u] - last_stops[k + 1u]));
+  float across = sqrt(min(0.5 * stop_area / max(abs(cell.area_px), 1.0), 1.0));
+  float sample_width = 2.0 * pattern_scale(p.picture) / float(pattern_side(p.picture));
+  return min(pattern_roughness(p.picture) * sample_width * across, LARGEST_ROUGHNESS);
 }
 #endif
 
@@ -287,6 +305,7 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
   stops[k] = farthest;
   if (pattern != 0u) last_stops[k] = stop_points[sharp_crossings];
 #ifdef OCCLUDERS
+  if (HAS_PICTURE) last_stops[k] = stop_points[crossings_of_group - 1u];
   if ((p.flags & FLAG_DIRT_ON_FRONT) != 0u)
     dirt_points[k] = front_point(item, at);
   else if ((p.flags & FLAG_DIRT_IN_STOP) != 0u)
@@ -307,9 +326,10 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
     merged += area * (roughness_px(cell) * min(moved_squared, 1.0) + cell.open * pattern_difference(pattern));
 #ifdef OCCLUDERS
   if (cell.is_drawn) {
-    float rough = dirt_roughness_px(cell);
+    float rough = dirt_roughness_px(cell), of_picture = picture_roughness_px(cell);
     inside += area * rough * squared_bend_of_map(k, true);
-    merged += area * rough * min(moved_squared, 1.0);
+    if (of_picture > 0.0) inside += area * of_picture * squared_bend_of_map(k, false);
+    merged += area * (rough + of_picture) * min(moved_squared, 1.0);
   }
 #endif
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
@@ -372,7 +392,7 @@ float find_extent(Cell cell) {
 void measure(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;
   pattern = item_pattern(item);
-  sharp_crossings = crossings_of_group - (pattern != 0u ? 1u : 0u);
+  sharp_crossings = HAS_PICTURE ? 0u : crossings_of_group - (pattern != 0u ? 1u : 0u);
   trace_corner(item, is_middle, box);
   float cell_mm2 = box.z * box.w / float(COARSE_CELLS * COARSE_CELLS);
   Cell cell = cell_at(k, cell_mm2 * item_irradiance(item));

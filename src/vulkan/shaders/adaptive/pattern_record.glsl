@@ -12,7 +12,10 @@ float pattern_level_from(uint pattern) { return uintBitsToFloat(pattern_word(pat
 float pattern_roughness(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 6u)); }
 float pattern_difference(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 7u)); }
 
+#define PICTURE_RADIUS 1.05  // pixels that cross the rim have their middle beyond it (kSharpOuterRadius)
+
 // The radius within which light crosses the stop.
 float stop_radius(uint pattern, uint c, uint crossing_count) {
+  if (HAS_PICTURE) return PICTURE_RADIUS;
   return pattern != 0u && c + 1u == crossing_count ? pattern_outer_radius(pattern) : 1.0;
 }

@@ -126,8 +126,8 @@ shared uint edge_bits_of_polygons[32];
 #ifdef OCCLUDERS
 shared uint pattern_words[32];  // a pattern's number, and that of the last crossing
 
-// The product of a polygon's transmittances at a place in the picture, over a part of a pixel's sides. map: where its first
-// map begins in large_corners.
+// The product of a polygon's transmittances at a place in the picture, over a part of a pixel's sides. map: where its
+// first map begins in large_corners.
 float product_at(uint mask, uint map, uint pattern, uint edge_bits, vec2 place, float size) {
   uint last = pattern >> LAST_SHIFT;
   float all = 1.0;
@@ -148,11 +148,12 @@ float transmittance_of(uint polygon, vec2 corner) {
   uint edge_bits = floatBitsToUint(large_corners[map].x), pattern = floatBitsToUint(large_corners[map].y);
   vec2 middle = corner + 0.5;
   partly_covering = 0u;
-  float whole = product_at(mask, map + 1u, pattern, edge_bits, middle, 1.0);
-  if (!is_seen_in_parts()) return whole;
   float sum = 0.0;
-  for (int k = 0; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k)
-    sum += product_at(mask, map + 1u, pattern, edge_bits, middle + part_of_pixel(k), 1.0 / float(PARTS_OF_PIXEL));
+  for (int k = WHOLE_PIXEL; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k) {
+    float one = product_at(mask, map + 1u, pattern, edge_bits, middle + part_of_pixel(k), width_of_part(k));
+    if (k == WHOLE_PIXEL && !is_seen_in_parts()) return one;
+    if (k != WHOLE_PIXEL) sum += one;
+  }
   return sum / float(PARTS_OF_PIXEL * PARTS_OF_PIXEL);
 }
 
@@ -173,11 +174,12 @@ float prepared_product_at(uint j, vec2 place, float size) {
 
 float prepared_transmittance(uint j, vec2 place) {
   partly_covering = 0u;
-  float whole = prepared_product_at(j, place, 1.0);
-  if (!is_seen_in_parts()) return whole;
   float sum = 0.0;
-  for (int k = 0; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k)
-    sum += prepared_product_at(j, place + part_of_pixel(k), 1.0 / float(PARTS_OF_PIXEL));
+  for (int k = WHOLE_PIXEL; k < PARTS_OF_PIXEL * PARTS_OF_PIXEL; ++k) {
+    float one = prepared_product_at(j, place + part_of_pixel(k), width_of_part(k));
+    if (k == WHOLE_PIXEL && !is_seen_in_parts()) return one;
+    if (k != WHOLE_PIXEL) sum += one;
+  }
   return sum / float(PARTS_OF_PIXEL * PARTS_OF_PIXEL);
 }
 

@@ -52,8 +52,8 @@ vec2 point_of_ray(uint ray, uint k) {
   return front_point(item, entrance_at(vec2(in_grid % side, in_grid / side)));
 }
 
-// The extent of a pixel's image, from the sides of a cell in pixels and in its image: pixels at the cell's edge see as far
-// beyond it. A cell smaller than a pixel does not show what it is.
+// The extent of a pixel's image, from the sides of a cell in pixels and in its image: pixels at the cell's edge see as
+// far beyond it. A cell smaller than a pixel does not show what it is.
 float pixel_extent_of(vec2 across, vec2 down, vec2 seen_across, vec2 seen_down) {
   float most = length(seen_across) + length(seen_down), det = cross2(across, down);
   vec2 x = seen_across * down.y - seen_down * across.y, y = seen_down * across.x - seen_across * down.x;
@@ -72,6 +72,23 @@ bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
     if (is_dirty(disc_of(qa, qb, qc, qd, pixel_extent))) return true;
   }
   return false;
+}
+
+// What a picture as the iris is over the cell of four rays in order: dark where one crossing is, else uniform where all
+// are.
+int region_of_picture(uint a, uint b, uint c, uint d, uint crossing_count) {
+  int all = REGION_UNIFORM;
+  if (!HAS_PICTURE) return all;
+  vec2 across = 0.5 * (rays[b].xy - rays[a].xy + rays[c].xy - rays[d].xy);
+  vec2 down = 0.5 * (rays[d].xy - rays[a].xy + rays[c].xy - rays[b].xy);
+  for (uint k = 0u; k < crossing_count; ++k) {
+    vec2 qa = crossing(a, k), qb = crossing(b, k), qc = crossing(c, k), qd = crossing(d, k);
+    float pixel_extent = pixel_extent_of(across, down, 0.5 * (qb - qa + qc - qd), 0.5 * (qd - qa + qc - qb));
+    int region = region_of_picture(disc_of(qa, qb, qc, qd, pixel_extent));
+    if (region == REGION_DARK) return REGION_DARK;
+    if (region == REGION_VARYING) all = REGION_VARYING;
+  }
+  return all;
 }
 #endif
 

@@ -12,8 +12,9 @@ layout(local_size_x = 64) in;
 void main() {
   if (!find_ray()) return;
   uint pattern = pattern_of(item), ray = first_ray + own, count = crossings_of(item);
-  uint sharp = pattern == 0u ? count : count - 1u;  // crossings
+  uint sharp = HAS_PICTURE ? 0u : pattern == 0u ? count : count - 1u;  // crossings
   vec2 vertex = vertex_at(own % side, own / side, side, sharp);
-  if (sharp < count) vertex.y = max(vertex.y, length(crossing(ray, sharp)) - pattern_outer_radius(pattern));
+  for (uint c = sharp; c < count; ++c)
+    vertex.y = max(vertex.y, length(crossing(ray, c)) - stop_radius(pattern, c, count));
   vertices[ray] = vertex;
 }
