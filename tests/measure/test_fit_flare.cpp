@@ -12,6 +12,7 @@
 #include "contrejour/expert/fit_comparison.h"
 #include "contrejour/expert/fit_flare.h"
 #include "contrejour/expert/sweep.h"
+#include "measure/fit/flare_fit_state.h"
 #include "support/approx.h"
 
 using namespace contrejour;
@@ -186,6 +187,24 @@ TEST_CASE("fit flare: a core that every exposure saturates is left out, said if 
   CHECK(check_flare(fit->flare).has_value());
   CHECK(std::ranges::any_of(fit->warnings,
                             [](const std::string& w) { return w.find("saturated") != std::string::npos; }));
+}
+
+TEST_CASE("fit flare: a ghost with values beyond all limits is left out, and said") {
+  FlareFit fit;
+  fit.flare().s_max = 0.4;
+  MeasuredGhost ghost;
+  ghost.centre.coefficients = {-1.0};
+  ghost.half_width.coefficients = ghost.half_height.coefficients = {0.1};
+  ghost.width_in.coefficients = ghost.width_out.coefficients = {0.01};
+  for (std::size_t c = 0; c < 3; ++c) ghost.border[c].coefficients = ghost.inside[c].coefficients = {1.0};
+  ghost.last = 0.4;
+  fit.flare().ghosts = {ghost, ghost, ghost};
+  fit.flare().ghosts[1].inside[2].coefficients = {1e300};
+  drop_unbounded(fit);
+  CHECK(fit.flare().ghosts.size() == 2);
+  CHECK(check_flare(fit.flare()).has_value());
+  REQUIRE(fit.result.warnings.size() == 1);
+  CHECK(fit.result.warnings[0].find("left out") != std::string::npos);
 }
 
 TEST_CASE("fit flare: pictures without a ghost give none, and a warning") {

@@ -99,7 +99,7 @@ TEST_CASE("stations: samples are evenly spread, however few they are") {
   }
 }
 
-TEST_CASE("stations: a channel that is not measured is guessed from the others, with an error as large") {
+TEST_CASE("stations: a channel that is not measured is guessed from the others, with twice the error") {
   FitStation station;
   station.rate = station.weight = Image(3, 1);
   const auto set = [&](int x, int channel, float rate, float weight) {
@@ -114,7 +114,7 @@ TEST_CASE("stations: a channel that is not measured is guessed from the others, 
   const FitStation before = station;
   guess_channels(station);
   CHECK(station.rate.at(0, 0, 2) == test::approx(3.0));
-  CHECK(station.weight.at(0, 0, 2) == test::approx(1.0 / (3.0 * 3.0 + 0.25)));
+  CHECK(station.weight.at(0, 0, 2) == test::approx(1.0 / (6.0 * 6.0 + 0.25)));
   station.rate.at(0, 0, 2) = station.weight.at(0, 0, 2) = 0.0F;
   CHECK(station.rate.pixels == before.rate.pixels);
   CHECK(station.weight.pixels == before.weight.pixels);

@@ -35,7 +35,7 @@ struct FlareSweep {
 };
 
 struct FlareFitOptions {
-  int max_ghosts = 16;  // whose edges are found
+  int max_ghosts = 24;  // whose edges are found
   int max_small_ghosts = 12;  // of a few pixels, and bright cores of larger ones
   // The contrast of a ghost's edge must be at least this multiple of the spread of contrasts elsewhere in the pictures.
   // Candidates that reach it are kept only if the fit to the pictures improves by more than chance.

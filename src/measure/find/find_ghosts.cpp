@@ -210,7 +210,10 @@ OfSpeed discs_of_speed(std::span<const SearchPicture> pictures, const Spokes& al
 
 }  // namespace
 
-std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor) {
+std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double usual_error,
+                                           double counted_part) {
+  const double floor = usual_error * std::sqrt(counted_part);
+  const double taken_off = (1.0 - counted_part) * usual_error * usual_error;
   std::vector<SearchPicture> pictures;
   for (const FitStation& station : stations) {
     SearchPicture picture{station.s, station.frame, Image(station.rate.width, station.rate.height, 1), {}};
@@ -221,7 +224,7 @@ std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations,
         const auto weight = static_cast<double>(station.weight.pixels[3 * k + c]);
         if (!(weight > 0.0)) continue;
         sum += static_cast<double>(station.rate.pixels[3 * k + c]);
-        variance += 1.0 / weight;
+        variance += std::max(1.0 / weight - taken_off, counted_part / weight);
         used += 1.0;
       }
       const float value =

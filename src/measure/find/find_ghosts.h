@@ -25,8 +25,10 @@ struct SearchPicture {
   Image value;  // one channel
   Image partial = {};  // the mean of the channels that were measured; NaN where none was
 };
-// floor: the usual standard deviation.
-[[nodiscard]] std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double floor);
+// usual_error: the usual standard deviation. counted_part: of its square, which is mostly what the model does not
+// describe of bright ghosts: with less, wide dim ghosts stand out more, and what bright ones leave, too.
+[[nodiscard]] std::vector<SearchPicture> search_pictures(std::span<const FitStation> stations, double usual_error,
+                                                         double counted_part = 1.0);
 
 struct GhostSearch {
   double max_speed = 6.0;

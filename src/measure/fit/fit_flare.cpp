@@ -64,10 +64,12 @@ bool add_ghost(FlareFit& fit, const std::vector<FitStation>& residuals, const Fo
   return true;
 }
 
+// Finds two thirds of the ghosts at most: dim ones under or beside these show only in what profiles leave.
 void find_all(FlareFit& fit) {
+  const int most = (2 * fit.options.max_ghosts + 2) / 3;
   std::vector<FoundGhost> known;
   int rejected = 0;
-  while (static_cast<int>(fit.flare().ghosts.size()) <= fit.options.max_ghosts && rejected < kMostRejected) {
+  while (static_cast<int>(fit.result.found.size()) < most && rejected < kMostRejected) {
     if (fit.context.cancelled()) return;
     const std::vector<FitStation> residuals = residual_stations(fit.coarse, fit.flare(), fit.context);
     const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals));
@@ -184,15 +186,6 @@ void add_small_ghosts(FlareFit& fit) {
 // Light that is the same everywhere is no flare where there is no ghost.
 void drop_veil_without_ghosts(FlareFit& fit) {
   if (fit.result.found.empty()) fit.flare().ghosts.clear();
-}
-
-// A flare with values beyond its limits could neither be drawn nor read again.
-void drop_unbounded(FlareFit& fit) {
-  const std::size_t dropped = std::erase_if(
-      fit.flare().ghosts, [&](const MeasuredGhost& ghost) { return !check_flare(fit.flare_of({ghost})); });
-  if (dropped > 0)
-    fit.result.warnings.push_back(
-        fmt::format("{} fitted ghosts had values beyond all limits and were left out", dropped));
 }
 
 }  // namespace

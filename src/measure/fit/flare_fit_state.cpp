@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/tasks.h"
 #include "measure/fit/halo.h"
 #include "measure/fit/station_figures.h"
@@ -208,6 +210,14 @@ void move_all(FlareFit& fit, double centre_shift) {
     for (FitStation& station : *stations) move_centre(station, centre_shift);
   }
   fit.centre_shift += centre_shift;
+}
+
+void drop_unbounded(FlareFit& fit) {
+  const std::size_t dropped = std::erase_if(
+      fit.flare().ghosts, [&](const MeasuredGhost& ghost) { return !check_flare(fit.flare_of({ghost})); });
+  if (dropped > 0)
+    fit.result.warnings.push_back(
+        fmt::format("{} fitted ghosts had values beyond all limits and were left out", dropped));
 }
 
 LevelFit optimised(FlareFit& fit, const std::vector<FitStation>& stations, const MeasuredFlare& flare,

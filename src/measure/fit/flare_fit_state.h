@@ -60,6 +60,9 @@ void subtract_small_ghosts(FlareFit& fit);
 // Moves the optical centre in all stations.
 void move_all(FlareFit& fit, double centre_shift);
 
+// Leaves out ghosts with values beyond the limits of a flare, which could neither be drawn nor read again, and says so.
+void drop_unbounded(FlareFit& fit);
+
 struct LevelSettings {
   double huber = 3.0;
   int iterations = 25;

@@ -20,6 +20,7 @@ namespace {
 constexpr std::array<std::size_t, 4> kCoefficients{2, 3, 4, 6};  // only the first where no station is held out
 constexpr int kShapeIterations = 10;
 constexpr int kMostFromResidual = 8;  // ghosts that the search after profiles may add
+constexpr double kCountedOfDim = 1.0 / 16.0;  // of the usual error's square, in the search for wide dim ghosts
 constexpr double kLeastHeldGain = 8.0;  // of the cost at the stations held out, for such a ghost
 // One pixel of this number is fitted in pictures of 320 pixels: for levels, and for outlines, which are costly where
 // ghosts with profiles overlap.
@@ -132,7 +133,7 @@ bool add_from_residual(ProfileFit& all, std::optional<MeasuredGhost> ghost, cons
 
 // The search again, in the pictures that profiles leave: ghosts beside or under brighter ones show only now. Returns
 // how many were found, `most` or fewer.
-int search_residual(ProfileFit& all, int most, bool small) {
+int search_residual(ProfileFit& all, int most, bool small, double counted_part = 1.0) {
   FlareFit& fit = all.fit;
   const GhostSearch search{6.0, fit.options.min_contrast};
   std::vector<FoundGhost> known;
@@ -140,7 +141,7 @@ int search_residual(ProfileFit& all, int most, bool small) {
   for (int rejected = 0; rejected < kMostRejected && added < most && !fit.context.cancelled();) {
     std::vector<FitStation> residuals = residual_stations(fit.fine, fit.flare(), fit.context);
     if (!small) residuals = half_size_stations(residuals);
-    const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals));
+    const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals), counted_part);
     const auto found = small ? strongest_spot(pictures, search, known, fit.context)
                              : strongest_disc(pictures, search, known, fit.context);
     if (!found) break;
@@ -174,7 +175,9 @@ void fit_profiles(FlareFit& fit) {
   if (!all.least) return;
   const auto small = static_cast<int>(fit.small_found.size());
   const int found = static_cast<int>(fit.result.found.size()) - small;
-  int added = search_residual(all, std::min(kMostFromResidual, fit.options.max_ghosts - found), false);
+  const int most = std::min(kMostFromResidual, fit.options.max_ghosts - found);
+  int added = search_residual(all, most, false);
+  added += search_residual(all, most - added, false, kCountedOfDim);
   added += search_residual(all, std::min(kMostFromResidual, fit.options.max_small_ghosts - small), true);
   if (added == 0) return;
   // Profiles and diffuse ghosts have taken the new ones' light as far as they could, and give it back.

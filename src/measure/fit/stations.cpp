@@ -20,7 +20,7 @@ constexpr double kFloor = 0.02;    // of a bright pixel: residuals below this pa
 constexpr double kBright = 0.995;  // the quantile of a station's pixels that counts as bright
 // Ghosts up to this radius have every pixel within kAboutPart * radius + kAbout_px fitted.
 constexpr double kSmall_px = 8.0, kAboutPart = 1.3, kAbout_px = 2.0;
-constexpr double kGuessError = 1.0;  // of the guess of a channel that is not measured
+constexpr double kGuessError = 2.0;  // of the guess of a channel that is not measured
 constexpr double kUsable = 1.0;    // of a block's pixels, for the block to be used
 
 // Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
