@@ -29,7 +29,8 @@ bool has_room_for_profile(const MeasuredGhost& ghost, const TangentFrame& frame,
          radius_px < kWidestProfile * std::hypot(frame.width, frame.height);
 }
 
-// A term without a direction changes most with the angle, where a rim or a core goes through a focus.
+// Rims and cores that go through a focus change terms without a direction. The others change less with the angle, and
+// have fewer coefficients, which saves most of the time of the equations.
 std::size_t coefficients_of(std::size_t term, const AmplitudeSettings& settings) {
   return profile_term(term).harmonic == 0
              ? settings.profile_coefficients

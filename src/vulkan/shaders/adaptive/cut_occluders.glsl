@@ -3,7 +3,7 @@
 vec2 front_of_triangle[3];
 uint occluders = 0u;  // mask of what may dim the triangle
 
-// Where light crosses the front at a place in the cell.
+// The point at which light crosses the front, for a place in the cell.
 vec2 front_at(vec2 in_cell) {
   if (!has_dirt_at(POINT_FRONT, 0u)) return vec2(0.0);
   return front_point(item, entrance_at(vec2(own % side, own / side) + in_cell));

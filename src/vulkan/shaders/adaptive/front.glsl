@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray crosses the plane of the first vertex: DirtSite::front_point(). Included after
+// The point at which a ray crosses the plane of the first vertex: DirtSite::front_point(). Included after
 // item_start.glsl.
 
 // The point in the lens's frame, mm. entrance: from the window's lower corner.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dims a ghost's light besides rims and the sharp iris, as a mask: dirt where light crosses its plane, the stop
+// A mask lists what dims a ghost's light besides rims and the sharp iris: dirt where light crosses its plane, the stop
 // pattern at the last crossing of the stop, and a picture as the iris at each crossing. Points of a ray are numbered:
 // where it crosses the stop, in stop radii, then where it crosses the front, in mm. Included after pattern.glsl.
 #include "dirt.glsl"
@@ -102,7 +102,7 @@ bool is_dirty(Disc disc) {
   return !is_clean(disc.middle * mm, disc.radius * mm);
 }
 
-// What a picture as the iris is over a disc of the stop.
+// Says whether a picture as the iris is dark, uniform or varying over a disc of the stop.
 int region_of_picture(Disc disc) {
   float distance = picture_distance(disc.middle);
   if (distance > disc.radius) return REGION_DARK;

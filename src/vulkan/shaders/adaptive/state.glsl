@@ -74,8 +74,8 @@ bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
   return false;
 }
 
-// What a picture as the iris is over the cell of four rays in order: dark where one crossing is, else uniform where all
-// are.
+// Says whether a picture as the iris is dark, uniform or varying over the cell of four rays in order: dark if it is dark
+// at one crossing, else uniform if it is at all of them.
 int region_of_picture(uint a, uint b, uint c, uint d, uint crossing_count) {
   int all = REGION_UNIFORM;
   if (!HAS_PICTURE) return all;
