@@ -38,14 +38,19 @@ struct Agreement {
   double psnr_db = 0, flux_error = 0;  // of the channel that differs most
 };
 
+// The sums of an image's channels.
+inline std::array<double, 3> fluxes_of(const Image& image) {
+  std::array<double, 3> sum{};
+  for (std::size_t k = 0; k < image.pixels.size(); ++k) sum[k % 3] += image.pixels[k];
+  return sum;
+}
+
 inline Agreement agreement_of(const Image& a, const Image& b) {
   double squares = 0, peak = 0;
-  std::array<double, 3> sum_a{}, sum_b{};
+  const std::array<double, 3> sum_a = fluxes_of(a), sum_b = fluxes_of(b);
   for (std::size_t k = 0; k < a.pixels.size(); ++k) {
     squares += std::pow(static_cast<double>(a.pixels[k]) - b.pixels[k], 2);
     peak = std::max<double>(peak, a.pixels[k]);
-    sum_a[k % 3] += a.pixels[k];
-    sum_b[k % 3] += b.pixels[k];
   }
   const double rms = std::sqrt(squares / static_cast<double>(a.pixels.size()));
   Agreement agreement{rms > 0.0 ? 20.0 * std::log10(peak / rms) : 200.0, 0.0};
