@@ -25,10 +25,6 @@ class NearField {
   // first_px: radius of the first octave's first row. weight: times the density at a radius, in pixels.
   NearField(std::span<const CellOctave> octaves, double first_px, const std::function<double(double)>& weight);
 
-  // The flux over a square; points beyond the octaves count as dark.
-  [[nodiscard]] std::array<double, 3> flux(const SquareAt& square) const;
-
- private:
   struct Octave {
     double first_px = 0, end_px = 0;  // its first row's inner edge, 0 for the first octave's, and its last one's outer
     double first_row_px = 0;
@@ -37,6 +33,14 @@ class NearField {
     std::vector<double> row_edge2;  // squares of rows' edges
     std::vector<std::array<double, 3>> below;  // [cell * (rows + 1) + row]: flux per radian within a row's inner edge
   };
+
+  // The flux over a square; points beyond the octaves count as dark.
+  [[nodiscard]] std::array<double, 3> flux(const SquareAt& square) const;
+
+  // What flux() is computed from, for devices that compute it themselves (src/vulkan/shaders/starburst/near.comp).
+  [[nodiscard]] std::span<const Octave> octaves() const { return octaves_; }
+
+ private:
   struct Arc;
 
   struct Sector {

@@ -67,8 +67,9 @@ std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
 
 }  // namespace
 
-AdaptiveFrame::AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept)
-    : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity) {
+AdaptiveFrame::AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
+                             StarburstStage& starbursts)
+    : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity), starbursts_(starbursts) {
   for (const Need& need : needs()) *need.capacity = std::min(*need.capacity, info_.storage_range_bytes / need.bytes);
 }
 
@@ -84,8 +85,9 @@ std::array<AdaptiveFrame::Need, 5> AdaptiveFrame::needs() const {
 
 int AdaptiveFrame::rows_a_band() const {
   const std::uint64_t row_bytes = kPixelBytes * static_cast<std::uint64_t>(job_.frame.width);
-  return static_cast<int>(std::clamp<std::uint64_t>(info_.storage_range_bytes / row_bytes, 1,
-                                                    static_cast<std::uint64_t>(job_.frame.height)));
+  const int fitting = static_cast<int>(std::clamp<std::uint64_t>(info_.storage_range_bytes / row_bytes, 1,
+                                                                 static_cast<std::uint64_t>(job_.frame.height)));
+  return kept_.most_rows > 0 ? std::min(fitting, kept_.most_rows) : fitting;
 }
 
 GroupCount AdaptiveFrame::rows_of(std::uint64_t groups) const { return groups_of(groups * kRaysABlock, info_); }
@@ -301,6 +303,7 @@ bool AdaptiveFrame::try_rows(int first_row, bool with_search, Image& image) {
   if (with_search) search();
   list_polygons();
   fill_tiles();
+  starbursts_.draw(parameters_.width, parameters_.height, first_row);
   const std::uint64_t bytes =
       kPixelBytes * static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
   if (job_.is_read) device_.fetch(Slot::Picture, bytes, kCountersBytes);

@@ -13,6 +13,7 @@
 #include "vulkan/counters.h"
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
+#include "vulkan/starburst_stage.h"
 #include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -28,6 +29,7 @@ struct AdaptiveCapacity {
 
 // The data that stay on the device from frame to frame, and the sizes of its buffers.
 struct AdaptiveKept {
+  int most_rows = 0;  // DeviceOptions::most_rows
   AdaptiveCapacity capacity;
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none
   std::vector<PathPlace> places;  // by path
@@ -38,7 +40,8 @@ struct AdaptiveKept {
 class AdaptiveFrame {
  public:
   // All must outlive the frame.
-  AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept);
+  AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
+                StarburstStage& starbursts);
 
   // Replaces the image's values. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
@@ -97,6 +100,7 @@ class AdaptiveFrame {
   const AdaptiveJob& job_;
   AdaptiveKept& kept_;
   AdaptiveCapacity& capacity_;
+  StarburstStage& starbursts_;
   PathGeometry geometry_ = PathGeometry::General;
   AdaptiveParameters parameters_;
   TileLists lists_;

@@ -23,6 +23,7 @@ Residence residence_of(std::size_t slot) {
     case Slot::Starts:
     case Slot::Groups:
     case Slot::Patterns:
+    case Slot::Starbursts:
     case Slot::Dirt: return Residence::Upload;
     default: return Residence::Device;
   }

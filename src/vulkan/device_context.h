@@ -59,8 +59,9 @@ enum class Slot : std::uint8_t {
   Patterns,
   TileTasks,
   Dirt,
+  Starbursts,
 };
-inline constexpr std::size_t kSlots = 30;
+inline constexpr std::size_t kSlots = 31;
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {
@@ -85,6 +86,12 @@ class DeviceContext {
   template <class T>
   void upload(Slot slot, const std::vector<T>& values) {
     need(slot, values.size() * sizeof(T));
+    at(slot).write(std::span<const T>(values));
+  }
+
+  // Replaces the first bytes of what was uploaded before.
+  template <class T>
+  void write_first(Slot slot, const std::vector<T>& values) {
     at(slot).write(std::span<const T>(values));
   }
 

@@ -57,8 +57,8 @@ std::uint64_t ray_count(const DeviceGrid& grid) {
 }
 
 GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
-                     GridKept& kept)
-    : device_(device), info_(info), job_(job), limits_(limits), kept_(kept) {
+                     GridKept& kept, StarburstStage& starbursts)
+    : device_(device), info_(info), job_(job), limits_(limits), kept_(kept), starbursts_(starbursts) {
   const double most = most_light(job.grids);
   if (most > 0.0) fixed_point_ = kFixedPoint / most;
   const std::uint64_t range = info.storage_range_bytes;
@@ -72,8 +72,9 @@ GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJo
 
 int GridFrame::rows_a_band() const {
   const std::uint64_t row_bytes = kSumBytes * static_cast<std::uint64_t>(job_.frame.width);
-  return static_cast<int>(std::clamp<std::uint64_t>(info_.storage_range_bytes / row_bytes, 1,
-                                                    static_cast<std::uint64_t>(job_.frame.height)));
+  const int fitting = static_cast<int>(std::clamp<std::uint64_t>(info_.storage_range_bytes / row_bytes, 1,
+                                                                 static_cast<std::uint64_t>(job_.frame.height)));
+  return kept_.most_rows > 0 ? std::min(fitting, kept_.most_rows) : fitting;
 }
 
 std::uint32_t GridFrame::style_flags() const {
@@ -223,6 +224,7 @@ void GridFrame::resolve(const Band& band, Image& image) {
   p.gain[0] = static_cast<float>(1.0 / fixed_point_);
   device_.dispatch(Shader::Resolve, p, groups_of(values, info_));
   device_.barrier();
+  starbursts_.draw(p.width, p.height, band.first_row);
   device_.fetch(Slot::Picture, sizeof(float) * values);
   device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters, sizeof(float) * values);
   device_.end_stage("fetch");

@@ -10,6 +10,7 @@
 #include "vulkan/counters.h"
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
+#include "vulkan/starburst_stage.h"
 #include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -24,6 +25,7 @@ struct BatchLimits {
 
 // The sizes of buffers that grow, from frame to frame.
 struct GridKept {
+  int most_rows = 0;  // DeviceOptions::most_rows
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
@@ -31,7 +33,7 @@ class GridFrame {
  public:
   // All must outlive the frame.
   GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
-            GridKept& kept);
+            GridKept& kept, StarburstStage& starbursts);
 
   // Replaces the image's values. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
@@ -63,6 +65,7 @@ class GridFrame {
   const GridJob& job_;
   BatchLimits limits_;
   GridKept& kept_;
+  StarburstStage& starbursts_;
   TileLists lists_;  // of the present band
   double fixed_point_ = 1.0;  // units of the sums for a pixel value of 1
   std::vector<Parameters> grids_;  // of the present band, by grid

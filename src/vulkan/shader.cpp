@@ -29,6 +29,8 @@ namespace {
 #include "vulkan/place_lists.inc"
 #include "vulkan/primitives.inc"
 #include "vulkan/resolve.inc"
+#include "vulkan/starburst_far.inc"
+#include "vulkan/starburst_near.inc"
 #include "vulkan/trace.inc"
 #include "vulkan/trace_double.inc"
 #include "vulkan/vertices.inc"
@@ -67,6 +69,8 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveCellsOccluded: return kAdaptiveCellsOccludedCode;
     case Shader::AdaptiveCutOccluded: return kAdaptiveCutOccludedCode;
     case Shader::AdaptiveRasterOccluded: return kAdaptiveRasterOccludedCode;
+    case Shader::StarburstFar: return kStarburstFarCode;
+    case Shader::StarburstNear: return kStarburstNearCode;
   }
   return {};
 }

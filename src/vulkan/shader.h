@@ -41,8 +41,10 @@ enum class Shader : std::uint8_t {
   AdaptiveCellsOccluded,
   AdaptiveCutOccluded,
   AdaptiveRasterOccluded,
+  StarburstFar,
+  StarburstNear,
 };
-inline constexpr std::size_t kShaders = 29;
+inline constexpr std::size_t kShaders = 31;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
 // surfaces, for those of `adaptive` whether the iris is a picture.

@@ -13,6 +13,7 @@
 #include "vulkan/device_context.h"
 #include "vulkan/grid_frame.h"
 #include "vulkan/instance.h"
+#include "vulkan/starburst_stage.h"
 
 namespace contrejour::inline internal {
 namespace vulkan {
@@ -40,13 +41,18 @@ class VulkanDevice final : public FrameDevice {
 
   Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) override {
     adaptive_.paths = nullptr;  // grids use the same buffers
-    return run(job.grids.empty(), image, context,
-               [&](DeviceContext& device) { return GridFrame(device, info_, job, {}, grids_).draw(image, context); });
+    grids_.most_rows = options_.most_rows;
+    return run(job.grids.empty(), image, context, [&](DeviceContext& device) {
+      StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
+      return with(starbursts, GridFrame(device, info_, job, {}, grids_, starbursts).draw(image, context));
+    });
   }
 
   Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) override {
+    adaptive_.most_rows = options_.most_rows;
     return run(job.items.empty(), image, context, [&](DeviceContext& device) {
-      return AdaptiveFrame(device, info_, job, adaptive_).draw(image, context);
+      StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
+      return with(starbursts, AdaptiveFrame(device, info_, job, adaptive_, starbursts).draw(image, context));
     });
   }
 
@@ -64,6 +70,13 @@ class VulkanDevice final : public FrameDevice {
       context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_.longest_wait_s,
                                                  options_.before_submission);
     return *context_;
+  }
+
+  // The work of a frame with that of its starbursts.
+  [[nodiscard]] static DeviceWork with(const StarburstStage& starbursts, DeviceWork work) {
+    work.starbursts = starbursts.added();
+    work.uploaded_bytes += starbursts.uploaded_bytes();
+    return work;
   }
 
   // Draws an image, which is dark where there is nothing to draw, and measures the work.
@@ -112,6 +125,7 @@ class VulkanDevice final : public FrameDevice {
     }
     adaptive_ = {};
     grids_ = {};
+    starbursts_ = {};
     context_.reset();
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
@@ -123,6 +137,7 @@ class VulkanDevice final : public FrameDevice {
   std::unique_ptr<DeviceContext> context_;
   AdaptiveKept adaptive_;
   GridKept grids_;
+  StarburstKept starbursts_;
 };
 
 DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {

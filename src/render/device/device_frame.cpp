@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/tasks.h"
+#include "render/device/kept_device.h"
 #include "render/planning/frame_memory.h"
 #include "render/planning/layer_images.h"
 
@@ -35,6 +36,7 @@ Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target, const s
     work.add(*one);
   }
   if (context.progress) context.progress(1.0);
+  target.cache.section<KeptDevice>({})->has_added_starbursts = work.starbursts > 0;
   DrawnFlare flare;
   images.move_to(flare);
   flare.statistics = std::move(target.statistics);
@@ -65,7 +67,8 @@ Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const IrisShape& iris,
   return draw_layers(
       device, {plan_, frame_, cache_, std::move(statistics), ms_since(start_)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
-        return device.draw(GridJob{frame_, iris, by_layer_[layer], style}, image, drawing);
+        return device.draw(GridJob{frame_, iris, by_layer_[layer], style, cache_.section<KeptDevice>({})->starbursts},
+                           image, drawing);
       },
       context);
 }

@@ -21,6 +21,7 @@
 #include "contrejour/image.h"
 #include "contrejour/method_options.h"
 #include "contrejour/result.h"
+#include "diffraction/placed_starburst.h"
 #include "ghosts/iris_shape.h"
 #include "optics/trace/packet_trace.h"
 #include "render/device/device_dirt.h"
@@ -46,6 +47,7 @@ struct GridJob {
   const IrisShape& iris;  // not a picture
   std::span<const DeviceGrid> grids;
   const GridStyle& style;
+  std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
 };
 
 // The paths of a lens's ghosts, from any point of the entrance plane. A device keeps what it was given last, so that
@@ -123,11 +125,14 @@ struct AdaptiveJob {
   double error = 0.003;  // AdaptiveOptions::error
   double least_peak = 0.0;  // FramePlan::min_peak
   bool is_read = true;  // false: the image's values are left undefined, and the picture stays on the device
+  std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
 };
 
 // The work of a device, and what it took.
 struct DeviceWork {
   std::uint64_t rays = 0, primitives = 0, invocations = 0, submissions = 0, uploaded_bytes = 0;
+  // The job's starbursts that were added: all or none, as of a frame without ghosts, or if their patterns do not fit.
+  std::uint64_t starbursts = 0;
   double ms = 0.0;
   std::vector<std::pair<std::string, double>> stages_ms = {};  // by the device's own clock; empty: it has none
 
@@ -137,6 +142,7 @@ struct DeviceWork {
     invocations += other.invocations;
     submissions += other.submissions;
     uploaded_bytes += other.uploaded_bytes;
+    starbursts += other.starbursts;
     ms += other.ms;
     add_stages(other.stages_ms);
   }
@@ -187,6 +193,7 @@ struct DeviceOptions {
   std::function<void(const std::string& message)> on_message = {};
   double longest_wait_s = 0.0;  // until a submission counts as hanging; 0: 10 s, on processors acting as GPUs 300 s
   std::uint64_t most_buffer_bytes = 0;  // a smaller limit than the device's for one buffer, for tests; 0: the device's
+  int most_rows = 0;  // of a picture that are drawn at once, for tests; 0: as many as fit into the device's buffers
   // Called before each submission with its number; an exception counts as the device's failure. For tests.
   std::function<void(std::uint64_t submission)> before_submission = {};
 };

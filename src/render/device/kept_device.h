@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "render/device/frame_device.h"
 #include "render/planning/frame_plan.h"
@@ -25,6 +26,9 @@ struct KeptDevice {
   std::unique_ptr<FrameDevice> device;  // null: frames are drawn by the CPU
   bool reads_pictures = true;           // AdaptiveJob::is_read
   bool is_required = false;             // if it fails, a frame fails, in place of being drawn by the CPU
+  // The starbursts that the device may add to the next picture of ghosts, and whether it has done so.
+  std::vector<PlacedStarburst> starbursts;
+  bool has_added_starbursts = false;
   std::string reason;                   // why the CPU drew the last frame although there is a device
 
   // Whether the device draws a frame; lacks: what it cannot do of it ("ringing is"), empty: nothing.

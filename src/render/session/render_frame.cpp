@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "render/area_lights/area_render.h"
 #include "render/device/kept_device.h"
 #include "render/planning/frame_memory.h"
+#include "render/planning/statistics.h"
 #include "render/session/registry.h"
 #include "render/starburst/starburst_pass.h"
 
@@ -29,9 +31,12 @@ Context part_of(const Context& whole, double from, double to) {
   return part;
 }
 
+bool has_points_only(std::span<const Light> lights) {
+  return std::ranges::all_of(lights, [](const Light& light) { return light.is_point(); });
+}
+
 Result<GhostImages> render_ghosts(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
-  const bool points = std::ranges::all_of(frame.lights, [](const Light& light) { return light.is_point(); });
-  return (points ? render_planned : render_areas)(draw, frame, context);
+  return (has_points_only(frame.lights) ? render_planned : render_areas)(draw, frame, context);
 }
 
 bool adds_lights(const FrameSettings& settings) { return settings.starburst.on || settings.glare.fraction != 0.0; }
@@ -46,14 +51,37 @@ FrameRequest with_imaged_lights(const FrameRequest& frame) {
   return {frame.lens, imaged_lights(frame), frame.settings, frame.cache, frame.layers};
 }
 
+// Whether a device may add starbursts to the ghosts: it draws the whole picture at once, and nothing is taken off them.
+bool may_place_starbursts(const FrameRequest& frame) {
+  const auto kept = frame.cache.find<KeptDevice>();
+  const StarburstOptions& starburst = frame.settings.starburst;
+  return kept && kept->device && starburst.on && !starburst.left_out && has_points_only(frame.lights);
+}
+
+// Gives the device the starbursts of points. Returns the time that their patterns took.
+Result<double> place_on_device(const FrameRequest& frame, const Context& context) {
+  const auto start = Clock::now();
+  auto placed = place_starbursts(with_imaged_lights(frame), context);
+  if (!placed) return tl::unexpected(placed.error());
+  frame.cache.section<KeptDevice>({})->starbursts = *std::move(placed);
+  return ms_since(start);
+}
+
 Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
-  const bool adds = adds_lights(frame.settings);
+  const bool adds = adds_lights(frame.settings), places = may_place_starbursts(frame);
+  Result<double> placing_ms = 0.0;
+  if (places) placing_ms = place_on_device(frame, context);
+  if (!placing_ms) return tl::unexpected(placing_ms.error());
   auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
+  KeptDevice& kept = *frame.cache.section<KeptDevice>({});
+  kept.starbursts.clear();
   if (!ghosts) return tl::unexpected(ghosts.error());
   Flare flare{std::move(ghosts->image), std::move(ghosts->statistics)};
+  if (places) count_last(flare.statistics, "starburst patterns", *placing_ms);
   if (!adds) return flare;
-  const auto added = add_light_images(flare.image, flare.statistics, with_imaged_lights(frame),
-                                      part_of(context, kGhostsFraction, 1.0));
+  const auto added =
+      add_light_images(flare.image, flare.statistics, {with_imaged_lights(frame), kept.has_added_starbursts},
+                       part_of(context, kGhostsFraction, 1.0));
   if (!added) return tl::unexpected(added.error());
   return flare;
 }
@@ -142,8 +170,12 @@ Result<DrawPlan> checked(const MethodOptions& method, const FrameRequest& frame)
   });
 }
 
-// Forgets why the last frame was drawn by the CPU.
-void begin_on_device(RenderCache& cache) { cache.section<KeptDevice>({})->reason.clear(); }
+// Forgets why the last frame was drawn by the CPU, and what the device added to it.
+void begin_on_device(RenderCache& cache) {
+  KeptDevice& kept = *cache.section<KeptDevice>({});
+  kept.reason.clear();
+  kept.has_added_starbursts = false;
+}
 
 // Says why the CPU drew a frame although there is a device.
 void note_device(RenderStatistics& statistics, const RenderCache& cache) {

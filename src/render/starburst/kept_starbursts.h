@@ -17,6 +17,8 @@ namespace contrejour::inline internal {
 
 class KeptStarbursts {
  public:
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20U;  // nine at 1920 x 1080
+
   // The properties of a lens that starbursts depend on.
   struct Key {
     std::vector<SurfaceState> surfaces;
@@ -29,7 +31,7 @@ class KeptStarbursts {
   };
   [[nodiscard]] static Key key_of(const LensState& lens);
 
-  explicit KeptStarbursts(const Key& /*key*/) : starbursts_(kMaxBytes) {}
+  explicit KeptStarbursts(const Key& /*key*/) : starbursts_(kMostBytes) {}
 
   // The arguments of lens_starburst().
   struct Request {
@@ -51,8 +53,6 @@ class KeptStarbursts {
   [[nodiscard]] std::size_t memory_bytes() const { return starbursts_.bytes(); }
 
  private:
-  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20U;  // nine at 1920 x 1080
-
   [[nodiscard]] static NumberKey key_of(const Request& request);
   void keep(NumberKey key, const Starburst& starburst);
 

@@ -13,6 +13,8 @@
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "contrejour/expert/lens_starburst.h"
+#include "diffraction/starburst_core.h"
+#include "diffraction/starburst_rings.h"
 #include "render/planning/statistics.h"
 #include "render/radiometry/direct_light.h"
 #include "render/starburst/area_spread.h"
@@ -35,6 +37,7 @@ using ImageOfLight = std::function<Image&(std::size_t light)>;
 
 struct LightImageTargets {
   ImageOfLight starburst, glare;
+  bool has_placed = false;  // LightImageRequest
 };
 
 Error invalid(std::string message) { return {ErrorCode::InvalidArgument, std::move(message), {}}; }
@@ -192,13 +195,16 @@ Result<void> spread_areas(const ImageOfLight& image_of, const std::vector<Imaged
 }
 
 // The flux that glare scatters is taken from the light's own image, so that both together sum to its value.
+double starburst_gain(const FrameSettings& settings) {
+  return settings.starburst.gain * (1.0 - settings.glare.fraction);
+}
+
 Result<void> draw_starbursts(const ImageOfLight& image_of, SortedLights imaged, const FrameRequest& frame,
                              const Context& context) {
   const auto& [lens, lights, settings, cache, layers] = frame;
   const auto kept = cache.section<KeptStarbursts>(KeptStarbursts::key_of(lens));
-  const double gain = settings.starburst.gain * (1.0 - settings.glare.fraction);
-  multiply_flux(imaged.points, gain);
-  multiply_flux(imaged.areas, gain);
+  multiply_flux(imaged.points, starburst_gain(settings));
+  multiply_flux(imaged.areas, starburst_gain(settings));
   const auto groups = group_lights(lights, imaged.points, settings.frame);
   if (auto drawn = draw_groups(image_of, groups, frame, *kept, context); !drawn) return drawn;
   Context quiet = context;
@@ -312,7 +318,9 @@ Result<void> draw_into(const LightImageTargets& targets, RenderStatistics& stati
   quiet.progress = {};
   const auto imaged = image_lights(frame, quiet);
   if (frame.settings.starburst.on && !context.cancelled()) {
-    auto drawn = draw_starbursts(targets.starburst, sorted_by_size(imaged, frame.lights), frame, context);
+    SortedLights sorted = sorted_by_size(imaged, frame.lights);
+    if (targets.has_placed) sorted.points.clear();
+    auto drawn = draw_starbursts(targets.starburst, std::move(sorted), frame, context);
     if (!drawn) return drawn;
     count_last(statistics, "starburst", ms_since(start));
     start = Clock::now();
@@ -345,15 +353,38 @@ Result<void> check_light_images(std::span<const Light> lights, const FrameSettin
   return starburst.left_out ? check_left_out(*starburst.left_out, settings.frame) : Result<void>();
 }
 
-Result<void> add_light_images(Image& image, RenderStatistics& statistics, const FrameRequest& frame,
+Result<std::vector<PlacedStarburst>> place_starbursts(const FrameRequest& frame, const Context& context) {
+  Context quiet = context;
+  quiet.progress = {};
+  std::vector<ImagedLight> points = sorted_by_size(image_lights(frame, quiet), frame.lights).points;
+  std::vector<PlacedStarburst> placed;
+  if (points.size() > kMostPlacedStarbursts) return placed;
+  multiply_flux(points, starburst_gain(frame.settings));
+  const auto kept = frame.cache.section<KeptStarbursts>(KeptStarbursts::key_of(frame.lens));
+  std::size_t bytes = 0;
+  for (const LightGroup& group : group_lights(frame.lights, points, frame.settings.frame)) {
+    const auto pattern = starburst_of(group, frame, *kept, quiet);
+    if (!pattern) return tl::unexpected(pattern.error());
+    if (context.cancelled()) return interrupted();
+    if (pattern->rings() == nullptr) continue;
+    bytes += pattern->rings()->bytes();
+    if (bytes > KeptStarbursts::kMostBytes) return std::vector<PlacedStarburst>();
+    for (const ImagedLight& light : group)
+      if (is_drawable(light.centre_px)) placed.push_back({*pattern, light.centre_px, light.flux});
+  }
+  return placed;
+}
+
+Result<void> add_light_images(Image& image, RenderStatistics& statistics, const LightImageRequest& request,
                               const Context& context) {
+  const FrameRequest& frame = request.frame;
   const FrameSettings& settings = frame.settings;
   const Image* const left_out = settings.starburst.left_out.get();
   Image apart;
   if (left_out != nullptr) apart = Image(settings.frame.width, settings.frame.height);
   Image& drawn_into = left_out != nullptr ? apart : image;
   const ImageOfLight same = [&](std::size_t) -> Image& { return drawn_into; };
-  auto drawn = draw_into({same, same}, statistics, frame, context);
+  auto drawn = draw_into({same, same, request.has_placed}, statistics, frame, context);
   if (!drawn || left_out == nullptr) return drawn;
   Context quiet = context;
   quiet.progress = {};
