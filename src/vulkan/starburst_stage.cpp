@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "vulkan/starburst_words.h"
-
 namespace contrejour::inline internal::vulkan {
 namespace {
 
-constexpr std::uint32_t kPixelsAGroup = 16;  // of near.comp, in a row
-constexpr int kNearPixels = static_cast<int>(kNear_px);  // about a light's image, on each side
+// Pixels about that of a light's image, on each side, which near.comp integrates, and those which meet many cells.
+constexpr int kNearPixels = static_cast<int>(kNear_px), kCentralPixels = 4;
+constexpr std::uint32_t kGroup = 64, kSharingFew = 4;  // invocations
 
 auto place_of(const std::vector<Starburst>& patterns, const Starburst& pattern) {
   return std::ranges::find(patterns, pattern.rings(), &Starburst::rings);
@@ -60,25 +59,30 @@ std::vector<std::uint32_t> StarburstStage::patterns_of_lights() const {
   return at;
 }
 
-void StarburstStage::draw_near(std::uint32_t light, int width, int height, int first_row) {
-  const auto [x, y] = image_pixel(lights_[light]);
-  StarburstParameters p{count_of_lights(), width, height, first_row, light};
-  p.left = std::max(x - kNearPixels, 0);
-  p.top = std::max(y - kNearPixels - first_row, 0);
-  const int right = std::min(x + kNearPixels + 1, width), bottom = std::min(y + kNearPixels + 1 - first_row, height);
+// Adds the pixels about a light's image, up to so many on each side, by `sharing` invocations each.
+void StarburstStage::draw_about(StarburstParameters p, int pixels, std::uint32_t sharing) {
+  const auto [x, y] = image_pixel(lights_[p.light]);
+  p.left = std::max(x - pixels, 0);
+  p.top = std::max(y - pixels - p.first_row, 0);
+  p.sharing = sharing;
+  const int right = std::min(x + pixels + 1, p.width), bottom = std::min(y + pixels + 1 - p.first_row, p.height);
   if (right <= p.left || bottom <= p.top) return;
   const auto across = static_cast<std::uint32_t>(right - p.left), down = static_cast<std::uint32_t>(bottom - p.top);
-  device_.dispatch(Shader::StarburstNear, p, {(across + kPixelsAGroup - 1) / kPixelsAGroup, down});
-  device_.barrier();
+  const std::uint32_t pixels_a_group = kGroup / sharing;
+  device_.dispatch(Shader::StarburstNear, p, {(across + pixels_a_group - 1) / pixels_a_group, down});
 }
 
 void StarburstStage::draw(int width, int height, int first_row) {
   if (!fits_) return;
   const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  const StarburstParameters p{count_of_lights(), width, height, first_row};
+  StarburstParameters p{count_of_lights(), width, height, first_row};
   device_.dispatch(Shader::StarburstFar, p, groups_of(pixels, info_));
   device_.barrier();
-  for (std::uint32_t light = 0; light < count_of_lights(); ++light) draw_near(light, width, height, first_row);
+  for (p.light = 0; p.light < count_of_lights(); ++p.light) {
+    draw_about(p, kCentralPixels, kGroup);
+    draw_about(p, kNearPixels, kSharingFew);
+    device_.barrier();
+  }
   device_.end_stage("starburst");
 }
 

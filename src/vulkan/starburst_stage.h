@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vulkan/device_context.h"
+#include "vulkan/starburst_words.h"
 
 namespace contrejour::inline internal::vulkan {
 
@@ -34,7 +35,7 @@ class StarburstStage {
   [[nodiscard]] bool upload_patterns();
   [[nodiscard]] std::vector<std::uint32_t> patterns_of_lights() const;  // the words at which they begin
   [[nodiscard]] std::uint32_t count_of_lights() const { return static_cast<std::uint32_t>(lights_.size()); }
-  void draw_near(std::uint32_t light, int width, int height, int first_row);
+  void draw_about(StarburstParameters p, int pixels, std::uint32_t sharing);
 
   DeviceContext& device_;
   const DeviceInfo& info_;

@@ -22,6 +22,7 @@ struct StarburstParameters {
   std::int32_t width = 0, height = 0, first_row = 0;
   std::uint32_t light = 0;
   std::int32_t left = 0, top = 0;
+  std::uint32_t sharing = 0;
 };
 
 // The pixel in which a light's image lies.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the middle of a light's starburst, 16 pixels a workgroup: the four invocations of a pixel share the cells of the
-// rings that it meets. Each cell is integrated exactly along rays from the light's image.
+// Adds the middle of a light's starburst. Each cell of the rings is integrated exactly along rays from the light's
+// image; the invocations of a pixel share the cells that it meets: few, except about the image's own pixel, where one
+// dispatch has 64 invocations a pixel, while another one has 4 for all other pixels.
 // The functions are those of src/diffraction/near_field.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +10,7 @@ layout(local_size_x = 64) in;
 
 #define BETWEEN_RAYS_PX 0.1  // kBetweenRays_px
 #define ROW_WORDS 6u         // RGB each of the flux per radian from the octave's first row to this one, and of this one
-#define SHARING 4u           // invocations a pixel: few cells meet most pixels
+#define CENTRAL_PIXELS 4     // kCentralPixels
 
 // Corners from the light's image, y up.
 struct Square {
@@ -146,8 +147,8 @@ int cell_of(NearOctave octave, float turn) {
 vec3 flux_of_arc(NearOctave octave, Arc arc, Square square) {
   int cells = int(octave.cells), last = cell_of(octave, arc.end);
   vec3 sum = vec3(0.0);
-  for (int k = cell_of(octave, arc.corners.x) + int(gl_LocalInvocationID.x % SHARING); k <= last;
-       k += int(SHARING)) {
+  for (int k = cell_of(octave, arc.corners.x) + int(gl_LocalInvocationID.x % p.sharing); k <= last;
+       k += int(p.sharing)) {
     int half_turn = int(floor((float(k) + 0.5) / float(cells)));
     uint cell = uint(k - half_turn * cells);
     float begin = float(half_turn), turned = (half_turn & 1) == 0 ? 1.0 : -1.0;
@@ -177,14 +178,15 @@ vec3 flux_over(uint pattern, Square square) {
 
 void main() {
   uint k = gl_LocalInvocationID.x;
-  ivec2 pixel = ivec2(p.left, p.top) + ivec2(gl_WorkGroupID.x * (64u / SHARING) + k / SHARING, gl_WorkGroupID.y);
+  ivec2 pixel = ivec2(p.left, p.top) + ivec2(gl_WorkGroupID.x * (64u / p.sharing) + k / p.sharing, gl_WorkGroupID.y);
   vec2 middle = from_image(p.light, pixel);
-  bool is_drawn = pixel.x < p.width && is_near(middle);
+  bool is_central = all(lessThanEqual(abs(whole_pixels(p.light, pixel)), ivec2(CENTRAL_PIXELS)));
+  bool is_drawn = pixel.x < p.width && is_near(middle) && is_central == (p.sharing == 64u);
   sums_of[k] = is_drawn ? flux_over(pattern_of(p.light), Square(middle - 0.5, middle + 0.5)) : vec3(0.0);
   barrier();
-  if (!is_drawn || k % SHARING != 0u) return;
+  if (!is_drawn || k % p.sharing != 0u) return;
   vec3 sum = vec3(0.0);
-  for (uint other = 0u; other < SHARING; ++other) sum += sums_of[k + other];
+  for (uint other = 0u; other < p.sharing; ++other) sum += sums_of[k + other];
   vec3 light = flux_of(p.light) * sum;
   uint at = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
   for (uint c = 0u; c < 3u; ++c) picture[at + c] += light[c];

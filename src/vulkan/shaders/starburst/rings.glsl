@@ -11,6 +11,7 @@ layout(push_constant) uniform Parameters {
   int first_row;  // of the picture, in the frame that the lights' positions refer to
   uint light;     // near.comp: the light
   int left, top;  // near.comp: the picture's first pixel that is drawn
+  uint sharing;   // near.comp: the invocations of a pixel, 64 for those about the image's own
 }
 p;
 
@@ -30,12 +31,17 @@ vec3 rgb_at(uint word) { return vec3(float_at(word), float_at(word + 1u), float_
 uint pattern_of(uint light) { return starbursts[LIGHT_WORDS * light]; }
 vec3 flux_of(uint light) { return rgb_at(LIGHT_WORDS * light + 5u); }
 
-// The middle of a pixel of the picture, from a light's image. Whole pixels are subtracted as integers, so that it is
-// as exact far from the frame's corner as at it.
+// The pixels between that of a light's image and a pixel of the picture, y down.
+ivec2 whole_pixels(uint light, ivec2 pixel) {
+  uint word = LIGHT_WORDS * light;
+  return ivec2(pixel.x, pixel.y + p.first_row) - ivec2(starbursts[word + 1u], starbursts[word + 2u]);
+}
+
+// The middle of a pixel of the picture, from a light's image. Whole pixels are subtracted as integers, so that it is as
+// exact far from the frame's corner as at it.
 vec2 from_image(uint light, ivec2 pixel) {
   uint word = LIGHT_WORDS * light;
-  ivec2 whole = ivec2(pixel.x, pixel.y + p.first_row) - ivec2(starbursts[word + 1u], starbursts[word + 2u]);
-  precise vec2 at = vec2(whole) + vec2(float_at(word + 3u), float_at(word + 4u));
+  precise vec2 at = vec2(whole_pixels(light, pixel)) + vec2(float_at(word + 3u), float_at(word + 4u));
   return vec2(at.x, -at.y);
 }
 
