@@ -73,3 +73,63 @@ TEST_CASE("halo: its level changes with the angle, and by a little from station 
   const double r = std::hypot(110.5 - lights.back().x, 37.5 - lights.back().y);
   CHECK(std::abs(static_cast<double>(last.rate.at(110, 37, 1))) < 0.05 * halo_at(r, 1) * level_of(0.4, 1.0));
 }
+
+// A light so bright that every exposure saturates out to 25 pixels, which is more than four times the mask's radius.
+TEST_CASE("halo: beside a large saturated middle, its level is known as well, and nothing nearer is fitted") {
+  constexpr double kSaturated_px = 25.0;
+  std::vector<FitStation> stations;
+  std::vector<Vec2> lights;
+  for (int k = 0; k < 9; ++k) {
+    lights.push_back({20.3 + 10.0 * k, 37.8});
+    FitStation station = station_with_light_at(lights.back());
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 120; ++x) {
+        const double r = std::hypot(x + 0.5 - lights.back().x, y + 0.5 - lights.back().y);
+        for (int c = 0; c < 3 && r < kSaturated_px; ++c) station.weight.at(x, y, c) = 0.0F;
+      }
+    }
+    for (float& v : station.rate.pixels) v *= k == 2 ? 1.02F : 1.0F;
+    stations.push_back(std::move(station));
+  }
+  const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
+  CHECK(halo_deviation(halo, stations[2], lights[2], 6.0) == test::approx(1.02).epsilon(0.005));
+  FitStation& middle = stations[4];
+  subtract_halo(middle, halo, lights[4], 6.0);
+  for (int x = 60; x < 90; ++x) {
+    const double r = std::hypot(x + 0.5 - lights[4].x, 40.5 - lights[4].y);
+    if (middle.weight.at(x, 40, 1) == 0.0F) continue;
+    CAPTURE(r);
+    CHECK(std::abs(static_cast<double>(middle.rate.at(x, 40, 1))) < 0.01 * halo_at(r, 1));
+  }
+  CHECK(middle.weight.at(83, 40, 1) == 0.0F);
+  CHECK(middle.weight.at(90, 40, 1) > 0.0F);
+}
+
+TEST_CASE("halo: a pupil that vignetting makes oblong") {
+  constexpr double kOblong = 0.5;
+  std::vector<FitStation> stations;
+  std::vector<Vec2> lights;
+  for (int k = 0; k < 9; ++k) {
+    lights.push_back({20.3 + 10.0 * k, 37.8});
+    FitStation station = station_with_light_at(lights.back());
+    station.s = std::abs(0.1 * (k - 4));
+    station.frame.to_light = {k < 4 ? -0.8 : 0.8, 0.6};  // y up
+    const double turn = std::atan2(-station.frame.to_light.y, station.frame.to_light.x);
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 120; ++x) {
+        const double phi = std::atan2(y + 0.5 - lights.back().y, x + 0.5 - lights.back().x) - turn;
+        const double level = 1.0 + kOblong * station.s * station.s * std::cos(2.0 * phi);
+        for (int c = 0; c < 3; ++c) station.rate.at(x, y, c) *= static_cast<float>(level);
+      }
+    }
+    stations.push_back(std::move(station));
+  }
+  const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
+  CHECK(halo.oblong == test::approx(kOblong).epsilon(0.05));
+  FitStation last = stations.back();
+  subtract_halo(last, halo, lights.back(), 6.0);
+  for (const Vec2 at : {Vec2{112.0, 38.0}, Vec2{88.0, 38.0}, Vec2{100.0, 50.0}, Vec2{92.0, 30.0}}) {
+    const double left = last.rate.at(static_cast<int>(at.x), static_cast<int>(at.y), 1);
+    CHECK(std::abs(left) < 0.01 * halo_at(length(at + Vec2{0.5, 0.5} - lights.back()), 1));
+  }
+}

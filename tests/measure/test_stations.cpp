@@ -83,6 +83,32 @@ TEST_CASE("stations: reduced pictures have the light of whole blocks, also besid
   CHECK(reduced->saturated > 0.0);
   CHECK(largest_error(station, 2, light) < 1e-5);
   CHECK(largest_error(half_size_station(station), 4, light) < 1e-5);
+  // Blocks with saturated pixels have what they have at least.
+  CHECK(station.weight.at(20, 15, 1) == 0.0F);
+  CHECK(static_cast<double>(station.rate.at(20, 15, 1)) == test::approx(4.0 * kRange));
+}
+
+TEST_CASE("stations: saturated pixels of a mosaic give the least value of those interpolated from them") {
+  FlareSweep sweep;
+  for (int k = -2; k <= 2; ++k) sweep.angles_rad.push_back(0.05 * k);
+  sweep.picture = [](std::size_t) -> Result<CapturedImage> {
+    CapturedImage image{Image(8, 6), Image(8, 6), Image(8, 6, 1), {}, BayerPattern::Rggb};
+    for (float& v : image.rate.pixels) v = 8.0F;
+    for (float& v : image.variance.pixels) v = 1.0F;
+    for (float& v : image.valid.pixels) v = 1.0F;
+    for (int c = 0; c < 3; ++c) image.rate.at(4, 3, c) = 40.0F;
+    image.valid.at(4, 3, 0) = 0.0F;
+    return image;
+  };
+  const SweepGeometry geometry{{4.0, 3.0}, 10.0, 0.0, 0.0, 0.0, 0.0, {}};
+  const Result<SweepStations> reduced = reduced_stations(sweep, geometry, {}, {});
+  REQUIRE(reduced);
+  const FitStation& station = reduced->stations.front();
+  CHECK(station.weight.at(4, 3, 1) == 0.0F);
+  CHECK(station.rate.at(4, 3, 1) == 40.0F);
+  CHECK(station.weight.at(4, 3, 0) == 0.0F);  // three quarters of its own value on each axis, one of its neighbour's
+  CHECK(station.rate.at(4, 3, 0) == test::approx(8.0 + 32.0 * 0.75 * 0.75));
+  CHECK(station.weight.at(5, 4, 0) + station.weight.at(3, 2, 0) + station.weight.at(5, 2, 0) > 0.0F);
 }
 
 TEST_CASE("stations: samples are evenly spread, however few they are") {
@@ -99,7 +125,8 @@ TEST_CASE("stations: samples are evenly spread, however few they are") {
   }
 }
 
-TEST_CASE("stations: a channel that is not measured is guessed from the others, with twice the error") {
+TEST_CASE(
+    "stations: a channel that is not measured is guessed from the others and its least value, with twice the error") {
   FitStation station;
   station.rate = station.weight = Image(3, 1);
   const auto set = [&](int x, int channel, float rate, float weight) {
@@ -115,6 +142,11 @@ TEST_CASE("stations: a channel that is not measured is guessed from the others, 
   guess_channels(station);
   CHECK(station.rate.at(0, 0, 2) == test::approx(3.0));
   CHECK(station.weight.at(0, 0, 2) == test::approx(1.0 / (6.0 * 6.0 + 0.25)));
+  station.weight.at(0, 0, 2) = 0.0F;
+  station.rate.at(0, 0, 2) = 5.0F;  // what saturates is at least that bright
+  guess_channels(station);
+  CHECK(station.rate.at(0, 0, 2) == 5.0F);
+  CHECK(station.weight.at(0, 0, 2) == test::approx(1.0 / (10.0 * 10.0 + 0.25)));
   station.rate.at(0, 0, 2) = station.weight.at(0, 0, 2) = 0.0F;
   CHECK(station.rate.pixels == before.rate.pixels);
   CHECK(station.weight.pixels == before.weight.pixels);

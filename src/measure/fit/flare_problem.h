@@ -19,7 +19,7 @@ namespace contrejour::inline internal {
 struct FitStation {
   double s = 0;  // >= 0
   StationFrame frame;
-  Image rate;    // three channels
+  Image rate;    // three channels; at saturated pixels the least value
   Image weight;  // inverse variances; 0: not to be fitted
 };
 

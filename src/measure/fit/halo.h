@@ -23,6 +23,10 @@ struct HaloProfile {
   // The level on the axis, and by how much it is multiplied for a light at s: 1 + change[0] s^2 + change[1] s^4.
   std::array<double, 2> change{};
 
+  // Vignetting makes the pupil oblong, and the halo with it: at an angle phi from the direction away from the optical
+  // centre, the level is multiplied by 1 + oblong s^2 cos(2 phi).
+  double oblong = 0;
+
   [[nodiscard]] double at(double r_px, std::size_t channel) const;
   [[nodiscard]] double scale(double s) const;
 };

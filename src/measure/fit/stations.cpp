@@ -21,7 +21,6 @@ constexpr double kBright = 0.995;  // the quantile of a station's pixels that co
 // Ghosts up to this radius have every pixel within kAboutPart * radius + kAbout_px fitted.
 constexpr double kSmall_px = 8.0, kAboutPart = 1.3, kAbout_px = 2.0;
 constexpr double kGuessError = 2.0;  // of the guess of a channel that is not measured
-constexpr double kUsable = 1.0;    // of a block's pixels, for the block to be used
 
 // Where the red pixel lies in a Bayer block, from its middle, in blocks; the blue one lies opposite.
 Vec2 red_offset(BayerPattern pattern) {
@@ -34,12 +33,18 @@ Vec2 red_offset(BayerPattern pattern) {
   return {};
 }
 
-// A channel that was measured beside the middle of its pixels, interpolated there.
+bool is_valid(const CapturedImage& image, int x, int y, int channel) {
+  return image.valid.at(x, y, image.valid.channels > channel ? channel : 0) > 0.0F &&
+         std::isfinite(image.rate.at(x, y, channel));
+}
+
+// A channel that was measured beside the middle of its pixels, interpolated there. The least values of saturated pixels
+// give the least value of what is interpolated from them.
 void move_channel(CapturedImage& image, int channel, Vec2 offset) {
   const CapturedImage from = image;
   const int step_x = offset.x < 0.0 ? 1 : -1, step_y = offset.y < 0.0 ? 1 : -1;
   const double u = std::abs(offset.x), v = std::abs(offset.y);
-  const auto valid_at = [&](int x, int y) { return from.valid.at(x, y, from.valid.channels > channel ? channel : 0); };
+  const auto valid_at = [&](int x, int y) { return is_valid(from, x, y, channel); };
   for (int y = 0; y < from.rate.height; ++y) {
     for (int x = 0; x < from.rate.width; ++x) {
       const int x1 = std::clamp(x + step_x, 0, from.rate.width - 1);
@@ -50,34 +55,39 @@ void move_channel(CapturedImage& image, int channel, Vec2 offset) {
       };
       image.rate.at(x, y, channel) =
           static_cast<float>(mixed([&](int i, int j) { return from.rate.at(i, j, channel); }));
-      const bool usable = valid_at(x, y) * valid_at(x1, y) * valid_at(x, y1) * valid_at(x1, y1) > 0.0F;
-      if (!usable) image.rate.at(x, y, channel) = std::nanf("");
+      const bool usable = valid_at(x, y) && valid_at(x1, y) && valid_at(x, y1) && valid_at(x1, y1);
+      image.valid.at(x, y, channel) = usable ? 1.0F : 0.0F;
     }
   }
 }
 
+Image three_alike(const Image& one) {
+  Image all(one.width, one.height);
+  for (std::size_t k = 0; k < all.pixels.size(); ++k) all.pixels[k] = one.pixels[k / 3];
+  return all;
+}
+
 void align_channels(CapturedImage& image, BayerPattern pattern) {
+  if (image.valid.channels == 1) image.valid = three_alike(image.valid);
   const Vec2 red = red_offset(pattern);
   move_channel(image, 0, red);
   move_channel(image, 2, red * -1.0);
 }
 
-// Means over blocks of `block` x `block` pixels, of the usable ones.
+// Sums over a block of `block` x `block` pixels.
 struct Block {
-  double rate = 0, variance = 0;
-  int count = 0;
+  double rate = 0, variance = 0;  // rate: with the least values of saturated pixels
+  bool usable = true;  // all are valid
 };
 
 Block block_at(const CapturedImage& image, int left, int top, int block, int channel) {
   Block sum;
   for (int y = top; y < top + block; ++y) {
     for (int x = left; x < left + block; ++x) {
-      const int valid_channel = image.valid.channels > channel ? channel : 0;
       const double rate = static_cast<double>(image.rate.at(x, y, channel));
-      if (image.valid.at(x, y, valid_channel) == 0.0F || !std::isfinite(rate)) continue;
-      sum.rate += rate;
+      if (std::isfinite(rate)) sum.rate += rate;
       sum.variance += static_cast<double>(image.variance.at(x, y, channel));
-      ++sum.count;
+      sum.usable = sum.usable && is_valid(image, x, y, channel);
     }
   }
   return sum;
@@ -88,15 +98,13 @@ FitStation reduced(const CapturedImage& image, int block, const Rgb& light) {
   const int width = image.rate.width / block, height = image.rate.height / block;
   station.rate = Image(width, height);
   station.weight = Image(width, height);
-  const double pixels = static_cast<double>(block) * block;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
         const Block sum = block_at(image, x * block, y * block, block, c);
-        if (sum.count < kUsable * pixels) continue;
-        const double scale = pixels / (sum.count * light[static_cast<std::size_t>(c)]);
+        const double scale = 1.0 / light[static_cast<std::size_t>(c)];
         station.rate.at(x, y, c) = static_cast<float>(scale * sum.rate);
-        station.weight.at(x, y, c) = static_cast<float>(1.0 / (scale * scale * sum.variance));
+        if (sum.usable) station.weight.at(x, y, c) = static_cast<float>(1.0 / (scale * scale * sum.variance));
       }
     }
   }
@@ -248,14 +256,12 @@ FitStation half_size_station(const FitStation& station) {
         int used = 0;
         for (int k = 0; k < 4; ++k) {
           const float w = station.weight.at(2 * x + k % 2, 2 * y + k / 2, c);
-          if (w == 0.0F) continue;
           sum += station.rate.at(2 * x + k % 2, 2 * y + k / 2, c);
           weight += w;
-          ++used;
+          used += w > 0.0F ? 1 : 0;
         }
-        if (used < 4) continue;  // as in block_at()
         half.rate.at(x, y, c) = sum;  // the light of a pixel of four times the area
-        half.weight.at(x, y, c) = weight / 64.0F;
+        if (used == 4) half.weight.at(x, y, c) = weight / 64.0F;
       }
     }
   }
@@ -313,9 +319,10 @@ void guess_channels(FitStation& station) {
       ++measured;
     }
     if (measured == 0.0 || measured == 3.0) continue;
-    const double guess = sum / measured, off = kGuessError * guess;
     for (std::size_t k = first; k < first + 3; ++k) {
       if (station.weight.pixels[k] != 0.0F) continue;
+      const double guess = std::max(sum / measured, static_cast<double>(station.rate.pixels[k]));
+      const double off = kGuessError * guess;
       station.rate.pixels[k] = static_cast<float>(guess);
       station.weight.pixels[k] = static_cast<float>(1.0 / (off * off + variance / measured));
     }

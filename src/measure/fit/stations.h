@@ -29,8 +29,9 @@ struct SweepStations {
 [[nodiscard]] std::vector<FitStation> stations_without(const SweepStations& sweep, const HaloProfile& halo,
                                                        double model_error, const std::vector<double>& deviations = {});
 
-// Gives channels that are not measured, as they saturate, the mean of the others at their pixels, with twice that as
-// the error. Otherwise nothing bounds the level of a small ghost in a channel that its middle saturates.
+// Gives channels that are not measured, as they saturate, the mean of the others at their pixels, or their least value
+// if that is larger, with twice that as the error. Otherwise nothing bounds the level of a small ghost in a channel
+// that its middle saturates.
 void guess_channels(FitStation& station);
 
 // Stations of which one pixel of `every` is fitted, but every pixel about the small ghosts of a flare; with guesses of
