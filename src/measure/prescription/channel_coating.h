@@ -14,10 +14,10 @@ namespace contrejour::inline internal {
 // Mean reflectances at normal incidence, weighted as the channels weight the light's spectrum.
 [[nodiscard]] Rgb channel_reflectance(const SurfaceState& surface, std::span<const SpectralBand> bands);
 
-// A tabulated coating (MeasuredCoating) with these means: a parabola of the phase in a film. With the angle of
-// incidence it shifts to shorter wavelengths, as films do, and rises as the bare glass does. The numbers are rounded to
-// a file's precision.
-[[nodiscard]] Coating channel_coating(const SurfaceState& surface, const Rgb& reflectance,
+// A tabulated coating (MeasuredCoating) with these means: the single film that has nearly the same ones, whose
+// reflectance at each angle of incidence is Fresnel's, and a parabola of the phase in a film for what remains, as of
+// coatings of several films. The numbers are rounded to a file's precision.
+[[nodiscard]] Coating channel_coating(const SurfaceState& surface, const Rgb& wanted,
                                       std::span<const SpectralBand> bands);
 
 }  // namespace contrejour::inline internal

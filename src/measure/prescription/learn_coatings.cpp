@@ -20,6 +20,8 @@ constexpr double kSettled = 0.01;      // of a logarithm, between two rounds
 constexpr double kAlike = 0.95;        // correlation of two energies
 constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing and the light's flux leave uncertain
 constexpr double kLeastReflectance = 1e-5;
+constexpr double kKnownCentre_px = 0.1;  // an error of the optical centre that does no harm
+constexpr int kCentreWidth = 160, kCentreGhosts = 10, kCentreIterations = 4;  // with which it is found
 constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
 
 // The inputs that stay the same in all rounds.
@@ -208,6 +210,23 @@ void add_warnings(const CoatingTask& task, const RoundFit& round, LearntCoatings
   for (const auto& [text, channels] : texts) learnt.warnings.push_back(fmt::format("{} ({})", text, channels));
 }
 
+// The photographs with the optical centre where ghosts have it. The light's images alone leave it uncertain by pixels
+// along their path, and a ghost that is drawn beside its place gives its light to others.
+Result<LensPhotographs> with_centre_by_ghosts(const LensPhotographs& photographs, const CoatingFitOptions& options,
+                                              const Context& context) {
+  if (length(photographs.geometry.centre_error_px) < kKnownCentre_px) return photographs;
+  AdjustOptions centre_only;
+  centre_only.tolerances = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  centre_only.max_width = std::min(options.max_width, kCentreWidth);
+  centre_only.max_ghosts = std::min(options.max_ghosts, kCentreGhosts);
+  centre_only.max_iterations = kCentreIterations;
+  const auto adjusted = adjust_lens(photographs, centre_only, context);
+  if (!adjusted) return tl::unexpected(adjusted.error());
+  LensPhotographs centred = photographs;
+  centred.geometry.centre_px = adjusted->centre_px;
+  return centred;
+}
+
 // Reads once what the pictures say about the lens as drawn now.
 Result<std::pair<SweepEnergies, RoundFit>> one_round(const CoatingTask& task, const LensState& lens,
                                                      const Context& context) {
@@ -224,7 +243,9 @@ Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const 
                                       const Context& context) {
   if (options.max_ghosts < 1 || options.max_rounds < 1 || !(options.model_error >= 0.0))
     return invalid_argument("ghosts and rounds must be 1 or more, the error of the model 0 or more");
-  const auto task = prepare(photographs, options, context);
+  const auto centred = with_centre_by_ghosts(photographs, options, context);
+  if (!centred) return tl::unexpected(centred.error());
+  const auto task = prepare(*centred, options, context);
   if (!task) return tl::unexpected(task.error());
   LearntCoatings learnt;
   learnt.lens = photographs.lens;

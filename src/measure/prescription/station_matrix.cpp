@@ -90,16 +90,24 @@ double column_value(const Patch& patch, int x, int y, int channel) {
   return inside ? static_cast<double>(patch.image.at(u, v, channel)) : 0.0;
 }
 
-// Ghosts' levels, not below 0, and the halo's, of one channel of one station.
+// Levels of ghosts and of the halo, of one channel of one station.
 struct MatrixLevels {
   Eigen::VectorXd ghosts, halo;
 };
 
-MatrixLevels levels_of(const ChannelMatrix& all, Eigen::Index ghosts) {
-  const ChannelMatrix kept = eliminated(all, ghosts);
-  MatrixLevels levels;
-  levels.ghosts = nonnegative_least_squares(kept.a, kept.b).x;
-  levels.halo = others_given(all, levels.ghosts);
+// No level falls below 0 but those of the halo's harmonics. Otherwise a ghost that is wide enough to be nearly even
+// takes any level, and the even level makes up for it.
+MatrixLevels levels_of(const ChannelMatrix& all, Eigen::Index ghosts, Eigen::Index round) {
+  const Eigen::Index last = all.b.size() - 1, harmonics = last - ghosts - round;
+  ColumnIndices at;
+  append_columns(at, 0, ghosts + round);
+  at.push_back(last);
+  append_columns(at, ghosts + round, harmonics);
+  const ChannelMatrix ordered = chosen_columns(all, at);
+  const ChannelMatrix kept = eliminated(ordered, ghosts + round + 1);
+  const Eigen::VectorXd positive = nonnegative_least_squares(kept.a, kept.b).x;
+  MatrixLevels levels{positive.head(ghosts), Eigen::VectorXd(all.b.size() - ghosts)};
+  levels.halo << positive.segment(ghosts, round), others_given(ordered, positive), positive.tail(1);
   return levels;
 }
 
@@ -206,7 +214,8 @@ Image station_weights(const FitStation& station, const std::vector<Patch>& colum
   for (int round = 0; round < kRounds; ++round) {
     const StationMatrix matrix = station_matrix(station, weights, columns, halo);
     std::array<MatrixLevels, 3> levels;
-    for (std::size_t c = 0; c < 3; ++c) levels[c] = levels_of(matrix[c], static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t c = 0; c < 3; ++c)
+      levels[c] = levels_of(matrix[c], static_cast<Eigen::Index>(columns.size()), halo.radial_count());
     reweight(station, columns, halo, levels, settings, weights);
   }
   return weights;
