@@ -21,8 +21,9 @@ constexpr double kLeast = 1e-5;  // reflectance of a table
 constexpr double kDigits = 1e7;               // a table's numbers are whole multiples of 1 / kDigits
 
 // Films that are tried: a single one, of any index and thickness.
-constexpr double kLeastFilmIndex = 1.2, kMostFilmIndex = 2.0, kFilmIndexStep = 0.02;
-constexpr double kThinnest_nm = 360.0, kThickest_nm = 1000.0, kThicknessStep_nm = 10.0;  // four times index and width
+constexpr int kFilmIndices = 40, kFilmThicknesses = 64;
+constexpr double kLeastFilmIndex = 1.2, kFilmIndexStep = 0.02;
+constexpr double kThinnest_nm = 360.0, kThicknessStep_nm = 10.0;  // four times index and width
 
 // Powers of the phase that light takes up in a film. At an angle of incidence the phase is smaller, as at a longer
 // wavelength.
@@ -58,9 +59,9 @@ Coating nearest_film(const SurfaceState& surface, const Rgb& wanted, std::span<c
   };
   Coating nearest;
   double least = misfit(nearest);
-  for (double n = kLeastFilmIndex; n < kMostFilmIndex; n += kFilmIndexStep) {
-    for (double lambda0_nm = kThinnest_nm; lambda0_nm < kThickest_nm; lambda0_nm += kThicknessStep_nm) {
-      const Coating film{"", QuarterWave{n, lambda0_nm}};
+  for (int n = 0; n < kFilmIndices; ++n) {
+    for (int k = 0; k < kFilmThicknesses; ++k) {
+      const Coating film{"", QuarterWave{kLeastFilmIndex + kFilmIndexStep * n, kThinnest_nm + kThicknessStep_nm * k}};
       const double of = misfit(film);
       if (!(of < least)) continue;
       least = of;
