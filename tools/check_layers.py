@@ -69,6 +69,7 @@ PUBLIC = {
     "context.h": "base",
     "expert/direct_image.h": "render/radiometry",
     "expert/devices.h": "render/device",
+    "expert/vulkan_target.h": "render/device",
     "expert/dirt.h": "aperture",
     "expert/film_design.h": "coating",
     "expert/film_material.h": "coating",

@@ -24,6 +24,9 @@
 
 namespace contrejour {
 
+struct VulkanHandles;
+struct VulkanTarget;
+
 // Frames are computed (docs/gpu.md) on the CPU; by Vulkan on a GPU; or there if possible, and else on the CPU.
 enum class Device { Cpu, Vulkan, Auto };
 
@@ -57,6 +60,11 @@ class CONTREJOUR_API Renderer {
   // after which the CPU renders.
   [[nodiscard]] Result<void> set_device(Device device, const std::string& which = {});
 
+  // Uses a Vulkan device of the caller for the frames that follow (expert/vulkan_target.h), until set_device(). If it
+  // fails later, a frame is an error. Errors: Unsupported, with the names of all that the device lacks; the CPU then
+  // renders.
+  [[nodiscard]] Result<void> set_vulkan_device(const VulkanHandles& handles);
+
   // Why Device::Auto chose the CPU; empty: it did not. What a device cannot draw the CPU draws in any case, which
   // RenderStatistics::device states for each frame.
   [[nodiscard]] const std::string& device_note() const;
@@ -66,6 +74,13 @@ class CONTREJOUR_API Renderer {
                                                 const FrameTarget& target, const Context& context = {});
   [[nodiscard]] Result<Flare> render(std::span<const Light> lights, const FrameSettings& settings,
                                      const Context& context = {});
+
+  // Renders into an image or buffer of the device of set_vulkan_device(), whose work has finished when this returns.
+  // What the device does not draw whole, the CPU draws, and the picture is uploaded; RenderStatistics::device says so.
+  // Errors: also a target that does not suit the frame. After an error the target and its semaphores are untouched,
+  // unless the device was lost or gave no answer.
+  [[nodiscard]] Result<RenderStatistics> render_to_vulkan(std::span<const Light> lights, const FrameSettings& settings,
+                                                          const VulkanTarget& target, const Context& context = {});
 
   // The frame in layers, equal to those of the function of this name.
   [[nodiscard]] Result<LayeredFlare> render_layers(std::span<const Light> lights, const FrameSettings& settings,

@@ -306,9 +306,13 @@ bool AdaptiveFrame::try_rows(int first_row, bool with_search, Image& image) {
   starbursts_.draw(parameters_.width, parameters_.height, first_row);
   const std::uint64_t bytes =
       kPixelBytes * static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  if (job_.is_read) device_.fetch(Slot::Picture, bytes, kCountersBytes);
+  if (job_.use == PictureUse::Read) device_.fetch(Slot::Picture, bytes, kCountersBytes);
+  if (keeps_bands())
+    device_.keep(Slot::Picture, bytes,
+                 kPixelBytes * static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(first_row));
   if (!finish_try()) return false;
-  if (job_.is_read) copy_rows(device_.read<float>(kCountersBytes), parameters_.height, image, first_row);
+  if (job_.use == PictureUse::Read)
+    copy_rows(device_.read<float>(kCountersBytes), parameters_.height, image, first_row);
   work_.primitives += counters_[kPolygonsListed];
   return true;
 }
@@ -346,6 +350,10 @@ bool AdaptiveFrame::grow_until(const Try& succeeds) {
 // Finds pupils and budget for the whole frame, then draws some rows at a time.
 void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
+  in_bands_ = true;
+  if (keeps_bands())
+    device_.need(device_.kept_rows(),
+                 kPixelBytes * static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
   prepare(frame);
   if (!grow_until([&] { return try_search(); }))
     throw vk::OutOfDeviceMemoryError("the rays of a frame do not fit into the device's buffers");

@@ -43,8 +43,10 @@ class AdaptiveFrame {
   AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
                 StarburstStage& starbursts);
 
-  // Replaces the image's values. Returns early when the context is cancelled.
+  // Replaces the image's values, if the job reads them. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
+  // Afterwards: whether a picture that is kept is in DeviceContext::kept_rows(), or else in Slot::Picture.
+  [[nodiscard]] bool keeps_bands() const { return job_.use == PictureUse::Kept && in_bands_; }
 
  private:
   // How many of something a buffer can hold, the bytes of each, and how many the last try counted.
@@ -104,6 +106,7 @@ class AdaptiveFrame {
   PathGeometry geometry_ = PathGeometry::General;
   AdaptiveParameters parameters_;
   TileLists lists_;
+  bool in_bands_ = false;
   std::array<std::uint32_t, kCounters> counters_{};  // of the last try
   DeviceWork work_;
 };

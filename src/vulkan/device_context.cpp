@@ -37,23 +37,16 @@ constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders
 
 }  // namespace
 
-DeviceContext::DeviceContext(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info, double longest_wait_s,
-                             std::function<void(std::uint64_t)> before_submission)
-    : info_(info), longest_wait_s_(longest_wait_s), before_submission_(std::move(before_submission)),
-      properties_(physical.getProperties()), memory_(physical.getMemoryProperties()) {
-  const auto family = static_cast<std::uint32_t>(compute_family(physical));
-  const float priority = 1.0F;
-  const vk::DeviceQueueCreateInfo queue({}, family, 1, &priority);
-  vk::PhysicalDeviceFeatures features;
-  features.shaderFloat64 = VK_TRUE;
-  device_ = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queue, {}, {}, &features));
-  queue_ = device_.getQueue(family, 0);
+DeviceContext::DeviceContext(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info,
+                             const DeviceOptions& options)
+    : info_(info), longest_wait_s_(options.longest_wait_s), before_submission_(options.before_submission),
+      properties_(physical.getProperties()), memory_(physical.getMemoryProperties()), queued_(physical, options.lent) {
   make_layouts();
   read_pipelines();
-  command_pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family});
+  command_pool_ = device_.createCommandPool({vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queued_.family});
   commands_ = vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1});
   fence_ = device_.createFence({});
-  if (physical.getQueueFamilyProperties()[family].timestampValidBits > 0) {
+  if (physical.getQueueFamilyProperties()[queued_.family].timestampValidBits > 0) {
     clock_ = device_.createQueryPool({{}, vk::QueryType::eTimestamp, kMostStages + 1});
     tick_ns_ = static_cast<double>(properties_.limits.timestampPeriod);
   }
@@ -174,17 +167,38 @@ void DeviceContext::barrier() {
   commands_.front().pipelineBarrier(work, work | Stage::eDrawIndirect | Stage::eHost, {}, all, {}, {});
 }
 
-void DeviceContext::finish() {
+void DeviceContext::finish(const QueueSemaphores& semaphores) {
   barrier();
   commands_.front().end();
   if (before_submission_) before_submission_(submissions_);
   ++submissions_;
   device_.resetFences(*fence_);
-  queue_.submit(vk::SubmitInfo({}, {}, *commands_.front()), *fence_);
+  submit(semaphores);
   const auto wait_ns = static_cast<std::uint64_t>(longest_wait_s_ * kNanoseconds);
   if (device_.waitForFences(*fence_, VK_TRUE, wait_ns) == vk::Result::eTimeout)
     throw Hang(fmt::format("the device gave no answer for {} s", longest_wait_s_));
   read_clock();
+}
+
+// A binary semaphore has no value, and its number is ignored.
+void DeviceContext::submit(const QueueSemaphores& semaphores) {
+  const auto& [wait, signal] = semaphores;
+  const vk::Semaphore waits(wait.semaphore), signals(signal.semaphore);
+  const vk::PipelineStageFlags stages = vk::PipelineStageFlagBits::eAllCommands;
+  const std::uint32_t wait_count = waits ? 1 : 0, signal_count = signals ? 1 : 0;
+  const vk::TimelineSemaphoreSubmitInfo values(wait_count, &wait.value, signal_count, &signal.value);
+  const vk::CommandBuffer commands = *commands_.front();
+  vk::SubmitInfo info(wait_count, &waits, &stages, 1, &commands, signal_count, &signals);
+  if (wait_count + signal_count > 0) info.pNext = &values;
+  queue_.submit(info, *fence_);
+}
+
+void DeviceContext::copy(const Buffer& from, std::uint64_t from_byte, Slot to, std::uint64_t bytes) {
+  commands_.front().copyBuffer(from.handle(), at(to).handle(), vk::BufferCopy(from_byte, 0, bytes));
+}
+
+void DeviceContext::keep(Slot slot, std::uint64_t bytes, std::uint64_t to_byte) {
+  commands_.front().copyBuffer(at(slot).handle(), kept_rows_.handle(), vk::BufferCopy(0, to_byte, bytes));
 }
 
 void DeviceContext::fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte) {
@@ -192,7 +206,7 @@ void DeviceContext::fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte)
 }
 
 std::uint64_t DeviceContext::memory_bytes() const {
-  std::uint64_t sum = fetched_.bytes();
+  std::uint64_t sum = fetched_.bytes() + kept_rows_.bytes() + sent_rows_.bytes();
   for (const Buffer& buffer : buffers_) sum += buffer.bytes();
   return sum;
 }

@@ -18,6 +18,7 @@
 #include "render/device/frame_device.h"
 #include "vulkan/buffer.h"
 #include "vulkan/layout.h"
+#include "vulkan/lent_device.h"
 #include "vulkan/shader.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -71,10 +72,15 @@ struct GroupCount {
 // Workgroups of 64 invocations, in rows that the device can take.
 [[nodiscard]] GroupCount groups_of(std::uint64_t invocations, const DeviceInfo& info);
 
+// A caller's semaphores about a submission.
+struct QueueSemaphores {
+  VulkanSemaphore wait = {}, signal = {};
+};
+
 class DeviceContext {
  public:
-  DeviceContext(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info, double longest_wait_s,
-                std::function<void(std::uint64_t submission)> before_submission);
+  // options: of which the longest wait, a lent device and what is called before submissions count.
+  DeviceContext(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info, const DeviceOptions& options);
   ~DeviceContext();
   DeviceContext(const DeviceContext&) = delete;
   DeviceContext& operator=(const DeviceContext&) = delete;
@@ -83,6 +89,7 @@ class DeviceContext {
   // Makes a buffer large enough, and takes part in no submission meanwhile.
   void need(Slot slot, std::uint64_t bytes);
   void need_fetched(std::uint64_t bytes);  // what fetch() may copy in one submission
+  void need(Buffer& other, std::uint64_t bytes) { other.need(device_, memory_, bytes); }
   template <class T>
   void upload(Slot slot, const std::vector<T>& values) {
     need(slot, values.size() * sizeof(T));
@@ -112,13 +119,20 @@ class DeviceContext {
   }
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
   void barrier();  // what follows sees what came before
-  void finish();   // submits, and waits for the end
+  void finish(const QueueSemaphores& semaphores = {});  // submits, and waits for the end
+  // What is recorded besides, between begin() and finish().
+  [[nodiscard]] const vk::raii::CommandBuffer& commands() const { return commands_.front(); }
+  void copy(const Buffer& from, std::uint64_t from_byte, Slot to, std::uint64_t bytes);
   // Copies the first bytes of a buffer to where the host reads them: read() at the same byte, after finish().
   void fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte = 0);
   template <class T>
   [[nodiscard]] const T* read(std::uint64_t byte = 0) const {
     return reinterpret_cast<const T*>(fetched_.read<std::byte>() + byte);
   }
+  // A picture that outlives the submissions that draw parts of it, and one of the host.
+  [[nodiscard]] Buffer& kept_rows() { return kept_rows_; }
+  [[nodiscard]] Buffer& sent_rows() { return sent_rows_; }
+  void keep(Slot slot, std::uint64_t bytes, std::uint64_t to_byte);  // copies to kept_rows()
   // Ends a stage: stages_ms() says how long each took, by the device's clock. Empty where it has none.
   void end_stage(std::string name);
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages_ms() const { return stages_ms_; }
@@ -135,6 +149,7 @@ class DeviceContext {
   [[nodiscard]] vk::Pipeline pipeline_of(Program program);
   void describe_buffers();
   void read_clock();
+  void submit(const QueueSemaphores& semaphores);
   template <class P>
   void push(Program program, const P& parameters) {
     static_assert(sizeof(P) <= kPushedBytes);
@@ -148,8 +163,9 @@ class DeviceContext {
   std::function<void(std::uint64_t)> before_submission_;
   vk::PhysicalDeviceProperties properties_;
   vk::PhysicalDeviceMemoryProperties memory_;
-  vk::raii::Device device_ = nullptr;
-  vk::raii::Queue queue_ = nullptr;
+  QueuedDevice queued_;
+  const vk::raii::Device& device_ = queued_.device.object;
+  const vk::raii::Queue& queue_ = queued_.queue;
   vk::raii::DescriptorSetLayout set_layout_ = nullptr;
   vk::raii::PipelineLayout pipeline_layout_ = nullptr;
   vk::raii::PipelineCache cache_ = nullptr;
@@ -164,7 +180,7 @@ class DeviceContext {
   std::vector<std::string> stages_;  // of the submission that is being made
   std::vector<std::pair<std::string, double>> stages_ms_;
   std::vector<Buffer> buffers_;  // by Slot
-  Buffer fetched_{Residence::Download};
+  Buffer fetched_{Residence::Download}, kept_rows_{Residence::Device}, sent_rows_{Residence::Upload};
   bool described_ = false;
   std::uint64_t submissions_ = 0, invocations_ = 0;
 };

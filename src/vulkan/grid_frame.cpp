@@ -77,6 +77,8 @@ int GridFrame::rows_a_band() const {
   return kept_.most_rows > 0 ? std::min(fitting, kept_.most_rows) : fitting;
 }
 
+bool GridFrame::keeps_bands() const { return job_.use == PictureUse::Kept && rows_a_band() < job_.frame.height; }
+
 std::uint32_t GridFrame::style_flags() const {
   std::uint32_t flags = job_.iris.is_circle() ? kCircle : 0U;
   if (const auto* const tiled = std::get_if<TiledOptions>(&job_.style))
@@ -225,12 +227,17 @@ void GridFrame::resolve(const Band& band, Image& image) {
   device_.dispatch(Shader::Resolve, p, groups_of(values, info_));
   device_.barrier();
   starbursts_.draw(p.width, p.height, band.first_row);
-  device_.fetch(Slot::Picture, sizeof(float) * values);
+  if (job_.use == PictureUse::Read) device_.fetch(Slot::Picture, sizeof(float) * values);
+  if (keeps_bands())
+    device_.keep(
+        Slot::Picture, sizeof(float) * values,
+        kPixelBytes * static_cast<std::uint64_t>(band.frame.width) * static_cast<std::uint64_t>(band.first_row));
   device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters, sizeof(float) * values);
   device_.end_stage("fetch");
   device_.finish();
   work_.add_stages(device_.stages_ms());
-  std::copy_n(device_.read<float>(), values, image.pixels.data() + image.index(0, band.first_row));
+  if (job_.use == PictureUse::Read)
+    std::copy_n(device_.read<float>(), values, image.pixels.data() + image.index(0, band.first_row));
   std::copy_n(device_.read<std::uint32_t>(sizeof(float) * values), std::size_t{kCounters}, counters_.begin());
 }
 
@@ -291,6 +298,9 @@ void GridFrame::make_room(std::uint64_t& batch_rays) {
 DeviceWork GridFrame::draw(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
   const int rows = rows_a_band();
+  if (keeps_bands())
+    device_.need(device_.kept_rows(),
+                 kPixelBytes * static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
   std::uint64_t batch_rays = limits_.rays;
   for (int row = 0; row < frame.height && !context.cancelled();) {
     Band band{frame, row};

@@ -35,8 +35,10 @@ class GridFrame {
   GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
             GridKept& kept, StarburstStage& starbursts);
 
-  // Replaces the image's values. Returns early when the context is cancelled.
+  // Replaces the image's values, if the job reads them. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
+  // Whether a picture that is kept is in DeviceContext::kept_rows(), or else in Slot::Picture.
+  [[nodiscard]] bool keeps_bands() const;
 
  private:
   struct Band {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -86,6 +87,26 @@ bool has_layer(const vk::raii::Context& loader, std::string_view name) {
   });
 }
 
+std::unique_ptr<SharedLibrary> open_loader() {
+#if defined(_WIN32)
+  auto library = SharedLibrary::open({"vulkan-1.dll"});
+#elif defined(__APPLE__)
+  auto library = SharedLibrary::open({"libvulkan.dylib", "libvulkan.1.dylib"});
+#else
+  auto library = SharedLibrary::open({"libvulkan.so.1", "libvulkan.so"});
+#endif
+  if (!library) throw std::runtime_error("the Vulkan loader is not installed");
+  return library;
+}
+
+PFN_vkGetInstanceProcAddr function_finder(const SharedLibrary& loader) {
+  void* const found = loader.function("vkGetInstanceProcAddr");
+  if (found == nullptr) throw std::runtime_error("the Vulkan loader has no vkGetInstanceProcAddr");
+  return reinterpret_cast<PFN_vkGetInstanceProcAddr>(found);
+}
+
+PFN_vkGetInstanceProcAddr function_finder(const VulkanHandles& lent) { return lent.get_instance_proc_addr; }
+
 }  // namespace
 
 int compute_family(const vk::raii::PhysicalDevice& device) {
@@ -95,7 +116,8 @@ int compute_family(const vk::raii::PhysicalDevice& device) {
   return found == families.end() ? -1 : static_cast<int>(found - families.begin());
 }
 
-Instance::Instance(OnMessage on_message) : on_message_(std::move(on_message)) {
+Instance::Instance(OnMessage on_message)
+    : on_message_(std::move(on_message)), library_(open_loader()), loader_(function_finder(*library_)) {
   const vk::ApplicationInfo application("contrejour", 1, "contrejour", 1, VK_API_VERSION_1_3);
   vk::InstanceCreateInfo create({}, &application);
   const bool validates = on_message_ && has_layer(loader_, kValidationLayer);
@@ -105,9 +127,19 @@ Instance::Instance(OnMessage on_message) : on_message_(std::move(on_message)) {
   if (validates) {
     create.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&features);
   }
-  instance_ = vk::raii::Instance(loader_, create);
+  instance_.object = vk::raii::Instance(loader_, create);
   if (validates) listen();
-  physical_ = vk::raii::PhysicalDevices(instance_);
+  physical_ = vk::raii::PhysicalDevices(instance_.object);
+}
+
+Instance::Instance(const VulkanHandles& lent) : loader_(function_finder(lent)) {
+  instance_.lend(vk::raii::Instance(loader_, lent.instance));
+  physical_.emplace_back(instance_.object, lent.physical_device);
+}
+
+bool Instance::has_physical(VkPhysicalDevice device) const {
+  return std::ranges::any_of(vk::raii::PhysicalDevices(instance_.object),
+                             [&](const vk::raii::PhysicalDevice& one) { return *one == vk::PhysicalDevice(device); });
 }
 
 void Instance::listen() {
@@ -115,7 +147,7 @@ void Instance::listen() {
   const vk::DebugUtilsMessengerCreateInfoEXT create({}, Severity::eWarning | Severity::eError,
                                                     vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, pass_message,
                                                     &on_message_);
-  messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_, create);
+  messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_.object, create);
 }
 
 Result<std::unique_ptr<Instance>> Instance::open(const OnMessage& on_message) {
@@ -125,6 +157,14 @@ Result<std::unique_ptr<Instance>> Instance::open(const OnMessage& on_message) {
     return failure(
         ErrorCode::Unsupported,
         fmt::format("there is no Vulkan here ({}): install a driver for the GPU and the Vulkan loader", error.what()));
+  }
+}
+
+Result<std::unique_ptr<Instance>> Instance::borrow(const VulkanHandles& lent) {
+  try {
+    return std::unique_ptr<Instance>(new Instance(lent));
+  } catch (const std::exception& error) {
+    return failure(ErrorCode::Unsupported, fmt::format("the instance cannot be used: {}", error.what()));
   }
 }
 

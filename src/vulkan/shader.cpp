@@ -29,6 +29,7 @@ namespace {
 #include "vulkan/place_lists.inc"
 #include "vulkan/primitives.inc"
 #include "vulkan/resolve.inc"
+#include "vulkan/rgba.inc"
 #include "vulkan/starburst_far.inc"
 #include "vulkan/starburst_near.inc"
 #include "vulkan/trace.inc"
@@ -71,6 +72,7 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveRasterOccluded: return kAdaptiveRasterOccludedCode;
     case Shader::StarburstFar: return kStarburstFarCode;
     case Shader::StarburstNear: return kStarburstNearCode;
+    case Shader::Rgba: return kRgbaCode;
   }
   return {};
 }

@@ -43,8 +43,9 @@ enum class Shader : std::uint8_t {
   AdaptiveRasterOccluded,
   StarburstFar,
   StarburstNear,
+  Rgba,
 };
-inline constexpr std::size_t kShaders = 31;
+inline constexpr std::size_t kShaders = 32;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
 // surfaces, for those of `adaptive` whether the iris is a picture.

@@ -26,6 +26,8 @@ class StarburstStage {
                  StarburstKept& kept);
 
   [[nodiscard]] std::uint64_t added() const { return fits_ ? lights_.size() : 0; }
+  // Whether it adds all lights that the job has.
+  [[nodiscard]] bool has_all() const { return lights_.empty() || fits_; }
   [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
   // Adds the starbursts to Slot::Picture, which holds rows of the frame; part of a submission, after a barrier. Another
   // one follows the last dispatch.

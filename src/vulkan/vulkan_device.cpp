@@ -13,6 +13,7 @@
 #include "vulkan/device_context.h"
 #include "vulkan/grid_frame.h"
 #include "vulkan/instance.h"
+#include "vulkan/picture_writer.h"
 #include "vulkan/starburst_stage.h"
 
 namespace contrejour::inline internal {
@@ -21,12 +22,17 @@ namespace {
 
 constexpr double kLongestWait_s = 10.0, kLongestWaitOfProcessor_s = 300.0;
 
+Result<std::unique_ptr<Instance>> open_instance(const DeviceOptions& options) {
+  return options.lent ? Instance::borrow(*options.lent) : Instance::open(options.on_message);
+}
+
 class VulkanDevice final : public FrameDevice {
  public:
   VulkanDevice(std::unique_ptr<Instance> instance, DeviceInfo info, DeviceOptions options)
       : instance_(std::move(instance)), info_(std::move(info)), options_(std::move(options)) {
     if (!(options_.longest_wait_s > 0.0))
       options_.longest_wait_s = info_.kind == "processor" ? kLongestWaitOfProcessor_s : kLongestWait_s;
+    if (options_.lent) options_.lent->features = nullptr;  // which are the caller's only during its call
     if (options_.most_buffer_bytes > 0)
       info_.storage_range_bytes = std::min(info_.storage_range_bytes, options_.most_buffer_bytes);
   }
@@ -44,7 +50,10 @@ class VulkanDevice final : public FrameDevice {
     grids_.most_rows = options_.most_rows;
     return run(job.grids.empty(), image, context, [&](DeviceContext& device) {
       StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
-      return with(starbursts, GridFrame(device, info_, job, {}, grids_, starbursts).draw(image, context));
+      GridJob used = job;
+      used.use = use_of(job.use, starbursts);
+      GridFrame frame(device, info_, used, {}, grids_, starbursts);
+      return with(starbursts, used, frame, frame.draw(image, context));
     });
   }
 
@@ -52,8 +61,27 @@ class VulkanDevice final : public FrameDevice {
     adaptive_.most_rows = options_.most_rows;
     return run(job.items.empty(), image, context, [&](DeviceContext& device) {
       StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
-      return with(starbursts, AdaptiveFrame(device, info_, job, adaptive_, starbursts).draw(image, context));
+      AdaptiveJob used = job;
+      used.use = use_of(job.use, starbursts);
+      AdaptiveFrame frame(device, info_, used, adaptive_, starbursts);
+      return with(starbursts, used, frame, frame.draw(image, context));
     });
+  }
+
+  Result<DeviceWork> write(const VulkanTarget& target, const Image* image) override {
+    if (!options_.lent) return invalid_argument("a Vulkan image or buffer is of no device that was lent");
+    const auto from = Clock::now();
+    DeviceWork work;
+    const auto done = guarded([&] {
+      DeviceContext& device = context();
+      if (image != nullptr) picture_ = sent(device, *image);
+      PictureWriter(device, info_, options_.most_rows, target).write(picture_);
+      work.submissions = 1;
+      work.add_stages(device.stages_ms());
+    });
+    if (!done) return tl::unexpected(done.error());
+    work.ms = ms_since(from);
+    return work;
   }
 
   Result<DeviceRays> trace(const DeviceGrid& grid) override {
@@ -66,17 +94,31 @@ class VulkanDevice final : public FrameDevice {
 
  private:
   DeviceContext& context() {
-    if (!context_)
-      context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_.longest_wait_s,
-                                                 options_.before_submission);
+    if (!context_) context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_);
     return *context_;
   }
 
-  // The work of a frame with that of its starbursts.
-  [[nodiscard]] static DeviceWork with(const StarburstStage& starbursts, DeviceWork work) {
+  // A picture to which the CPU has to add starbursts is read.
+  [[nodiscard]] static PictureUse use_of(PictureUse wanted, const StarburstStage& starbursts) {
+    return wanted == PictureUse::Kept && !starbursts.has_all() ? PictureUse::Read : wanted;
+  }
+
+  // The work of a frame with that of its starbursts, and where its picture is.
+  template <class Job, class DrawnFrame>
+  [[nodiscard]] DeviceWork with(const StarburstStage& starbursts, const Job& job, const DrawnFrame& frame,
+                                DeviceWork work) {
     work.starbursts = starbursts.added();
     work.uploaded_bytes += starbursts.uploaded_bytes();
+    work.is_kept = job.use == PictureUse::Kept;
+    picture_ = {job.frame.width, job.frame.height, frame.keeps_bands() ? &context_->kept_rows() : nullptr};
     return work;
+  }
+
+  // Uploads a picture of the host.
+  [[nodiscard]] static StoredPicture sent(DeviceContext& device, const Image& image) {
+    device.need(device.sent_rows(), sizeof(float) * image.pixels.size());
+    device.sent_rows().write(std::span<const float>(image.pixels));
+    return {image.width, image.height, &device.sent_rows()};
   }
 
   // Draws an image, which is dark where there is nothing to draw, and measures the work.
@@ -115,7 +157,7 @@ class VulkanDevice final : public FrameDevice {
       // It may still run, so that nothing of it may be freed; neither may the instance.
       static_cast<void>(context_.release());
       instance_.release();  // NOLINT(bugprone-unused-return-value)
-      if (auto again = Instance::open(options_.on_message)) instance_ = std::move(*again);
+      if (auto again = open_instance(options_)) instance_ = std::move(*again);
     } catch (const vk::OutOfDeviceMemoryError& error) {
       message = fmt::format("its memory does not suffice ({})", error.what());
     } catch (const vk::DeviceLostError& error) {
@@ -126,6 +168,7 @@ class VulkanDevice final : public FrameDevice {
     adaptive_ = {};
     grids_ = {};
     starbursts_ = {};
+    picture_ = {};
     context_.reset();
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
@@ -138,6 +181,7 @@ class VulkanDevice final : public FrameDevice {
   AdaptiveKept adaptive_;
   GridKept grids_;
   StarburstKept starbursts_;
+  StoredPicture picture_;  // that the last draw kept
 };
 
 DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {
@@ -221,6 +265,13 @@ Result<DeviceInfo> chosen(const std::vector<DeviceInfo>& all, const std::string&
   return *found;
 }
 
+Result<void> check_lent(const VulkanHandles& handles) {
+  const std::vector<std::string> missing = missing_for_vulkan(handles);
+  if (missing.empty()) return {};
+  return failure(ErrorCode::Unsupported,
+                 fmt::format("the Vulkan device that was lent lacks {}", fmt::join(missing, "; ")));
+}
+
 }  // namespace
 }  // namespace vulkan
 
@@ -235,7 +286,9 @@ std::vector<DeviceInfo> frame_devices() {
 }
 
 Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& options) {
-  auto instance = vulkan::Instance::open(options.on_message);
+  if (options.lent)
+    if (const auto good = vulkan::check_lent(*options.lent); !good) return tl::unexpected(good.error());
+  auto instance = vulkan::open_instance(options);
   if (!instance) return tl::unexpected(instance.error());
   std::vector<DeviceInfo> all;
   try {
@@ -244,7 +297,7 @@ Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& opti
     return failure(ErrorCode::Unsupported,
                    fmt::format("the Vulkan driver fails to describe its devices: {}", error.what()));
   }
-  const char* const wanted = std::getenv("CONTREJOUR_DEVICE");
+  const char* const wanted = options.lent ? nullptr : std::getenv("CONTREJOUR_DEVICE");
   const auto info = vulkan::chosen(all, !options.which.empty() ? options.which : wanted != nullptr ? wanted : "");
   if (!info) return tl::unexpected(info.error());
   auto device = std::make_unique<vulkan::VulkanDevice>(std::move(*instance), *info, options);

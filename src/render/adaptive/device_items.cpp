@@ -175,7 +175,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
         return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items,
-                                             groups, error, plan->min_peak, kept.reads_pictures, kept.starbursts},
+                                             groups, error, plan->min_peak, kept.use, kept.starbursts},
                                  image, drawing);
       },
       context);

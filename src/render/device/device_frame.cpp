@@ -36,7 +36,9 @@ Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target, const s
     work.add(*one);
   }
   if (context.progress) context.progress(1.0);
-  target.cache.section<KeptDevice>({})->has_added_starbursts = work.starbursts > 0;
+  KeptDevice& kept = *target.cache.section<KeptDevice>({});
+  kept.has_added_starbursts = work.starbursts > 0;
+  kept.has_kept_picture = work.is_kept;
   DrawnFlare flare;
   images.move_to(flare);
   flare.statistics = std::move(target.statistics);
@@ -67,8 +69,8 @@ Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const IrisShape& iris,
   return draw_layers(
       device, {plan_, frame_, cache_, std::move(statistics), ms_since(start_)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
-        return device.draw(GridJob{frame_, iris, by_layer_[layer], style, cache_.section<KeptDevice>({})->starbursts},
-                           image, drawing);
+        const KeptDevice& kept = *cache_.section<KeptDevice>({});
+        return device.draw(GridJob{frame_, iris, by_layer_[layer], style, kept.starbursts, kept.use}, image, drawing);
       },
       context);
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 
 #include "contrejour/context.h"
 #include "contrejour/expert/devices.h"
+#include "contrejour/expert/vulkan_target.h"
 #include "contrejour/frame.h"
 #include "contrejour/image.h"
 #include "contrejour/method_options.h"
@@ -39,6 +41,13 @@ struct DeviceGrid {
   Vec2 shift_mm{};  // of the ghost, on the sensor
 };
 
+// What becomes of a picture. Unless it is read, the values of the image on the host are left undefined.
+enum class PictureUse : std::uint8_t {
+  Read,  // into the image
+  Kept,  // on the device, for FrameDevice::write(); read if the device cannot add all starbursts
+  Discarded,  // after it was drawn
+};
+
 // Grids are drawn as cells, as `bundle` does, or as primitives, as `tiled` does.
 using GridStyle = std::variant<BundleOptions, TiledOptions>;
 
@@ -48,6 +57,7 @@ struct GridJob {
   std::span<const DeviceGrid> grids;
   const GridStyle& style;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
+  PictureUse use = PictureUse::Read;
 };
 
 // The paths of a lens's ghosts, from any point of the entrance plane. A device keeps what it was given last, so that
@@ -124,7 +134,7 @@ struct AdaptiveJob {
   std::span<const DeviceGroup> groups;
   double error = 0.003;  // AdaptiveOptions::error
   double least_peak = 0.0;  // FramePlan::min_peak
-  bool is_read = true;  // false: the image's values are left undefined, and the picture stays on the device
+  PictureUse use = PictureUse::Read;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
 };
 
@@ -133,6 +143,7 @@ struct DeviceWork {
   std::uint64_t rays = 0, primitives = 0, invocations = 0, submissions = 0, uploaded_bytes = 0;
   // The job's starbursts that were added: all or none, as of a frame without ghosts, or if their patterns do not fit.
   std::uint64_t starbursts = 0;
+  bool is_kept = false;  // the picture is on the device, and not in the image
   double ms = 0.0;
   std::vector<std::pair<std::string, double>> stages_ms = {};  // by the device's own clock; empty: it has none
 
@@ -143,6 +154,7 @@ struct DeviceWork {
     submissions += other.submissions;
     uploaded_bytes += other.uploaded_bytes;
     starbursts += other.starbursts;
+    is_kept = is_kept || other.is_kept;
     ms += other.ms;
     add_stages(other.stages_ms);
   }
@@ -180,6 +192,11 @@ class FrameDevice {
   // Draws items into the image likewise.
   [[nodiscard]] virtual Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) = 0;
 
+  // Writes a picture to the target, on a device that was opened with a caller's handles: this one, or if it is null the
+  // one that the last draw() kept. The target is good (check_target). Errors: as draw(); after one the target and its
+  // semaphores are untouched, unless the device was lost or gave no answer.
+  [[nodiscard]] virtual Result<DeviceWork> write(const VulkanTarget& target, const Image* image) = 0;
+
   // Traces one grid alone, for comparison with trace_packets(). Errors: as draw().
   [[nodiscard]] virtual Result<DeviceRays> trace(const DeviceGrid& grid) = 0;
 
@@ -189,7 +206,9 @@ class FrameDevice {
 // How a device is opened.
 struct DeviceOptions {
   std::string which = {};  // index, or a part of the name; empty: CONTREJOUR_DEVICE, or else the first usable one
-  // Not empty: validation layers are on, where they are installed, and each message is reported.
+  std::optional<VulkanHandles> lent = std::nullopt;  // a caller's device, in place of one that is opened by name
+  // Not empty: validation layers are on (not for a lent device), where they are installed, and each message is
+  // reported.
   std::function<void(const std::string& message)> on_message = {};
   double longest_wait_s = 0.0;  // until a submission counts as hanging; 0: 10 s, on processors acting as GPUs 300 s
   std::uint64_t most_buffer_bytes = 0;  // a smaller limit than the device's for one buffer, for tests; 0: the device's

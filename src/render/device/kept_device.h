@@ -24,7 +24,8 @@ struct KeptDevice {
   [[nodiscard]] static std::size_t memory_bytes() { return 0; }
 
   std::unique_ptr<FrameDevice> device;  // null: frames are drawn by the CPU
-  bool reads_pictures = true;           // AdaptiveJob::is_read
+  PictureUse use = PictureUse::Read;    // of the next picture of ghosts
+  bool has_kept_picture = false;        // instead of having read it
   bool is_required = false;             // if it fails, a frame fails, in place of being drawn by the CPU
   // The starbursts that the device may add to the next picture of ghosts, and whether it has done so.
   std::vector<PlacedStarburst> starbursts;

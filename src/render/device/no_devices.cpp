@@ -13,3 +13,13 @@ Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& /*op
 }
 
 }  // namespace contrejour::inline internal
+
+namespace contrejour {
+
+void enable_vulkan_features(VkPhysicalDeviceFeatures& /*features*/) {}
+
+std::vector<std::string> missing_for_vulkan(const VulkanHandles& /*handles*/) {
+  return {"a library with Vulkan: this one was built without it"};
+}
+
+}  // namespace contrejour

@@ -13,6 +13,7 @@
 #include "base/tasks.h"
 #include "contrejour/expert/check_lens.h"
 #include "render/area_lights/area_render.h"
+#include "render/device/check_target.h"
 #include "render/device/kept_device.h"
 #include "render/planning/frame_memory.h"
 #include "render/planning/statistics.h"
@@ -67,13 +68,21 @@ Result<double> place_on_device(const FrameRequest& frame, const Context& context
   return ms_since(start);
 }
 
+// Whether nothing is left for the CPU to add to a picture that the device draws, if it can place these starbursts.
+bool is_whole_on_device(const FrameRequest& frame, std::span<const PlacedStarburst> placed) {
+  const FrameSettings& settings = frame.settings;
+  if (!has_points_only(frame.lights) || settings.glare.fraction != 0.0) return false;
+  return !settings.starburst.on || (!placed.empty() && has_points_only(imaged_lights(frame)));
+}
+
 Result<Flare> render_whole(const DrawPlan& draw, const FrameRequest& frame, const Context& context) {
   const bool adds = adds_lights(frame.settings), places = may_place_starbursts(frame);
   Result<double> placing_ms = 0.0;
   if (places) placing_ms = place_on_device(frame, context);
   if (!placing_ms) return tl::unexpected(placing_ms.error());
-  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
   KeptDevice& kept = *frame.cache.section<KeptDevice>({});
+  if (kept.use == PictureUse::Kept && !is_whole_on_device(frame, kept.starbursts)) kept.use = PictureUse::Read;
+  auto ghosts = render_ghosts(draw, frame, adds ? part_of(context, 0.0, kGhostsFraction) : context);
   kept.starbursts.clear();
   if (!ghosts) return tl::unexpected(ghosts.error());
   Flare flare{std::move(ghosts->image), std::move(ghosts->statistics)};
@@ -175,6 +184,7 @@ void begin_on_device(RenderCache& cache) {
   KeptDevice& kept = *cache.section<KeptDevice>({});
   kept.reason.clear();
   kept.has_added_starbursts = false;
+  kept.has_kept_picture = false;
 }
 
 // Says why the CPU drew a frame although there is a device.
@@ -198,6 +208,22 @@ Result<Flare> render_frame(const MethodOptions& method, const FrameRequest& fram
     note_device(flare->statistics, frame.cache);
   }
   return flare;
+}
+
+Result<RenderStatistics> render_frame_to(const MethodOptions& method, const FrameRequest& frame,
+                                         const VulkanTarget& target, const Context& context) {
+  const Frame& size = frame.settings.frame;
+  if (const auto good = check_target(target, size.width, size.height); !good) return tl::unexpected(good.error());
+  KeptDevice& kept = *frame.cache.section<KeptDevice>({});
+  kept.use = PictureUse::Kept;
+  auto flare = render_frame(method, frame, context);
+  kept.use = PictureUse::Read;
+  if (!flare) return tl::unexpected(flare.error());
+  const auto written = kept.device->write(target, kept.has_kept_picture ? nullptr : &flare->image);
+  if (!written) return tl::unexpected(written.error());
+  for (const auto& [stage, ms] : written->stages_ms) flare->statistics.time_ms.emplace_back("device: " + stage, ms);
+  count_last(flare->statistics, "hand over", written->ms);
+  return std::move(flare->statistics);
 }
 
 Result<LayeredFlare> render_frame_layers(const MethodOptions& method, const FrameRequest& frame,

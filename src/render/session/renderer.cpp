@@ -35,7 +35,7 @@ struct Renderer::State {
   MethodOptions method;
   std::optional<LensState> lens = std::nullopt;
   RenderCache cache = {};
-  std::pair<Device, std::string> device = {Device::Cpu, {}};
+  std::optional<std::pair<Device, std::string>> device = std::pair(Device::Cpu, std::string());  // none: a lent one
   std::string device_note = {};
 
   [[nodiscard]] Result<Flare> render(const MethodOptions& by, std::span<const Light> lights,
@@ -68,7 +68,7 @@ Result<void> Renderer::set_device(Device device, const std::string& which) {
   KeptDevice& kept = *state_->cache.section<KeptDevice>({});
   kept.device = nullptr;
   kept.is_required = device == Device::Vulkan;
-  state_->device = {Device::Cpu, {}};
+  state_->device = std::pair(Device::Cpu, std::string());
   state_->device_note.clear();
   if (device != Device::Cpu) {
     auto opened = open_frame_device({.which = which});
@@ -78,7 +78,18 @@ Result<void> Renderer::set_device(Device device, const std::string& which) {
     else
       state_->device_note = opened.error().message;
   }
-  state_->device = {device, which};
+  state_->device = std::pair(device, which);
+  return {};
+}
+
+Result<void> Renderer::set_vulkan_device(const VulkanHandles& handles) {
+  if (auto to_cpu = set_device(Device::Cpu); !to_cpu) return to_cpu;
+  auto opened = open_frame_device({.lent = handles});
+  if (!opened) return tl::unexpected(opened.error());
+  KeptDevice& kept = *state_->cache.section<KeptDevice>({});
+  kept.device = std::move(*opened);
+  kept.is_required = true;
+  state_->device.reset();
   return {};
 }
 
@@ -113,12 +124,20 @@ Result<RenderStatistics> Renderer::render(std::span<const Light> lights, const F
     drafted = kDraftProgress;
   }
   KeptDevice& kept = *state_->cache.section<KeptDevice>({});
-  kept.reads_pictures = !target.is_discarded;
+  kept.use = target.is_discarded ? PictureUse::Discarded : PictureUse::Read;
   auto flare = state_->render(state_->method, lights, settings, rest_of(context, drafted));
-  kept.reads_pictures = true;
+  kept.use = PictureUse::Read;
   if (!flare) return tl::unexpected(flare.error());
   if (target.is_discarded) return std::move(flare->statistics);
   return write_out(std::move(*flare), target.pixels, quiet);
+}
+
+Result<RenderStatistics> Renderer::render_to_vulkan(std::span<const Light> lights, const FrameSettings& settings,
+                                                    const VulkanTarget& target, const Context& context) {
+  if (state_->device) return invalid_argument("the renderer has no Vulkan device of yours: call set_vulkan_device()");
+  if (!state_->lens) return no_lens();
+  state_->cache.next_frame();
+  return render_frame_to(state_->method, {*state_->lens, lights, settings, state_->cache}, target, context);
 }
 
 Result<Flare> Renderer::render(std::span<const Light> lights, const FrameSettings& settings, const Context& context) {
