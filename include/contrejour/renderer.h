@@ -60,9 +60,9 @@ class CONTREJOUR_API Renderer {
   // after which the CPU renders.
   [[nodiscard]] Result<void> set_device(Device device, const std::string& which = {});
 
-  // Uses a Vulkan device of the caller for the frames that follow (expert/vulkan_target.h), until set_device(). If it
-  // fails later, a frame is an error. Errors: Unsupported, with the names of all that the device lacks; the CPU then
-  // renders.
+  // Uses a Vulkan device of the caller for the frames that follow (expert/vulkan_target.h), until set_device() or
+  // configure_renderer(). If it fails later, a frame is an error. Errors: Unsupported, with the names of all that the
+  // device lacks; the CPU then renders.
   [[nodiscard]] Result<void> set_vulkan_device(const VulkanHandles& handles);
 
   // Why Device::Auto chose the CPU; empty: it did not. What a device cannot draw the CPU draws in any case, which

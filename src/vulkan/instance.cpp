@@ -9,11 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "vulkan/device_context.h"
+
 namespace contrejour::inline internal::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr std::uint32_t kBuffersAShader = 14;  // bindings.glsl
 constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint64_t kSmallestRange = std::uint64_t{64} << 20U;
 
@@ -42,9 +43,11 @@ std::string reason_against(const vk::raii::PhysicalDevice& device, const vk::Phy
                        VK_API_VERSION_MINOR(version));
   if (compute_family(device) < 0) return "it has no queue that computes";
   if (!device.getFeatures().shaderFloat64) return "its shaders have no double precision, which small pupils need";
-  if (limits.maxPerStageDescriptorStorageBuffers < kBuffersAShader)
-    return fmt::format("its shaders take {} buffers, and {} are needed", limits.maxPerStageDescriptorStorageBuffers,
-                       kBuffersAShader);
+  // All shaders share one set of buffers, which counts as a whole.
+  if (const std::uint32_t most =
+          std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
+      most < kSlots)
+    return fmt::format("its shaders take {} buffers, and {} are needed", most, kSlots);
   if (limits.maxComputeWorkGroupInvocations < kGroupSize)
     return fmt::format("its workgroups hold {} invocations, and {} are needed", limits.maxComputeWorkGroupInvocations,
                        kGroupSize);

@@ -170,6 +170,8 @@ class VulkanDevice final : public FrameDevice {
     starbursts_ = {};
     picture_ = {};
     context_.reset();
+    if (options_.lent)
+      return failure(ErrorCode::Unsupported, fmt::format("the lent device ({}) failed: {}", info_.name, message));
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
   }

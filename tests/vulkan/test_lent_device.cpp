@@ -286,6 +286,32 @@ TEST_CASE("the caller's device works on after the renderer, and after failures o
   test::check_no_messages();
 }
 
+TEST_CASE("a semaphore that nobody signals is an error, and the next frame is drawn") {
+  auto caller = make_caller();
+  if (!caller) return;
+  const LensState lens = lens_of("heliar", 5, 8.0);
+  const FrameSettings settings = lent_settings(lens);
+  {
+    RenderCache cache;
+    KeptDevice& kept = *cache.section<KeptDevice>({});
+    kept.device = *open_frame_device({.lent = caller->handles(), .longest_wait_s = 0.5});
+    const CallerImage image = caller->image(kVulkanRgba32Float, kWidth, kHeight, 7.0F);
+    const vk::SemaphoreTypeCreateInfo timeline(vk::SemaphoreType::eTimeline, 0);
+    const vk::raii::Semaphore never(caller->device(), vk::SemaphoreCreateInfo({}, &timeline));
+    const FrameRequest dark{lens, {}, settings, cache};
+    const VulkanTarget target{.to = image.image, .wait = {*never, 1}};
+    const auto done = render_frame_to(AdaptiveOptions{}, dark, target, {});
+    REQUIRE_FALSE(done.has_value());
+    CHECK(done.error().message.find("no answer") != std::string::npos);
+    caller->device().signalSemaphore(vk::SemaphoreSignalInfo(*never, 1));
+    caller->device().waitIdle();
+    check_done(render_frame_to(AdaptiveOptions{}, dark, {.to = image.image}, {}));
+  }
+  test::messages().clear();  // what was abandoned is not destroyed before the device, which the layer reports
+  caller.reset();
+  test::messages().clear();
+}
+
 TEST_CASE("a device that lacks something is refused with its name") {
   const auto caller = make_caller();
   if (!caller) return;
