@@ -8,7 +8,7 @@
 #include <cstring>
 #include <span>
 
-#include <vulkan/vulkan_raii.hpp>
+#include "vulkan/raii.h"
 
 namespace contrejour::inline internal::vulkan {
 

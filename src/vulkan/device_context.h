@@ -13,12 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include <vulkan/vulkan_raii.hpp>
-
 #include "render/device/frame_device.h"
 #include "vulkan/buffer.h"
 #include "vulkan/layout.h"
 #include "vulkan/lent_device.h"
+#include "vulkan/raii.h"
 #include "vulkan/shader.h"
 
 namespace contrejour::inline internal::vulkan {

@@ -9,13 +9,12 @@
 #include <string>
 #include <vector>
 
-#include <vulkan/vulkan_raii.hpp>
-
 #include "base/shared_library.h"
 #include "contrejour/expert/devices.h"
 #include "contrejour/expert/vulkan_target.h"
 #include "contrejour/result.h"
 #include "vulkan/lendable.h"
+#include "vulkan/raii.h"
 
 namespace contrejour::inline internal::vulkan {
 

@@ -6,10 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include <vulkan/vulkan_raii.hpp>
-
 #include "contrejour/expert/vulkan_target.h"
 #include "vulkan/lendable.h"
+#include "vulkan/raii.h"
 
 namespace contrejour::inline internal::vulkan {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <vulkan/vulkan.hpp>
+#include "vulkan/raii.h"
 
 namespace contrejour::inline internal::vulkan {
 

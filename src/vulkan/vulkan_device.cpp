@@ -155,7 +155,7 @@ class VulkanDevice final : public FrameDevice {
     } catch (const Hang& hang) {
       message = hang.what();
       // It may still run, so that nothing of it may be freed; neither may the instance.
-      static_cast<void>(context_.release());
+      context_.release();  // NOLINT(bugprone-unused-return-value)
       instance_.release();  // NOLINT(bugprone-unused-return-value)
       if (auto again = open_instance(options_)) instance_ = std::move(*again);
     } catch (const vk::OutOfDeviceMemoryError& error) {

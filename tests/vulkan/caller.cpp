@@ -6,11 +6,22 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 #include "device.h"
 
 namespace contrejour::test {
 namespace {
+
+// The header's own declarations are Vulkan's.
+static_assert(std::is_same_v<VulkanGetInstanceProcAddr, PFN_vkGetInstanceProcAddr>);
+static_assert(std::is_same_v<decltype(VulkanHandles::device), VkDevice>);
+static_assert(std::is_same_v<decltype(VulkanImage::image), VkImage>);
+static_assert(std::is_same_v<decltype(VulkanSemaphore::semaphore), VkSemaphore>);
+static_assert(kVulkanRgba32Float == VK_FORMAT_R32G32B32A32_SFLOAT &&
+              kVulkanRgba16Float == VK_FORMAT_R16G16B16A16_SFLOAT);
+static_assert(VulkanImage{}.layout_before == VK_IMAGE_LAYOUT_UNDEFINED);
+static_assert(VulkanImage{}.layout_after == VK_IMAGE_LAYOUT_GENERAL);
 
 using ImageUse = vk::ImageUsageFlagBits;
 using BufferUse = vk::BufferUsageFlagBits;

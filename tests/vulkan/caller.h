@@ -6,11 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include <vulkan/vulkan_raii.hpp>
-
 #include "base/shared_library.h"
 #include "contrejour/expert/vulkan_target.h"
 #include "contrejour/image.h"
+#include "vulkan/raii.h"
 
 namespace contrejour::test {
 

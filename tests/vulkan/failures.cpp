@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The failures of a driver, as vulkan.hpp reports them.
-#include <vulkan/vulkan.hpp>
-
 #include "device.h"
+#include "vulkan/raii.h"
 
 namespace contrejour::test {
 
