@@ -82,6 +82,7 @@ TEST_CASE("learn coatings: few ghosts leave reflectances open, and the warning n
   const auto learnt = learn_coatings(photographs(), options);
   REQUIRE_MESSAGE(learnt.has_value(), learnt.error().to_string());
   CHECK(learnt->rank[1] <= 2);
+  CHECK(warns_of(*learnt, "after round 1"));
   CHECK(std::ranges::count_if(learnt->surfaces, [](const auto& s) { return s.determined[1]; }) == 0);
   for (const GhostEnergy& energy : learnt->ghosts) {
     CHECK(warns_of(*learnt, std::to_string(energy.ghost.i)));

@@ -16,6 +16,7 @@ namespace contrejour {
 namespace {
 
 constexpr int kBands = 16;             // of the spectrum, for means over channels
+constexpr double kUnsettled = 0.25;    // of a logarithm, in the last round
 constexpr double kSettled = 0.01;      // of a logarithm, between two rounds
 constexpr double kAlike = 0.95;        // correlation of two energies
 constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing and the light's flux leave uncertain
@@ -160,6 +161,7 @@ double largest_change(const RoundFit& round) {
   return most;
 }
 
+// Errors are not below the last round's change.
 void add_surfaces(const CoatingTask& task, const RoundFit& round, const std::vector<Rgb>& reflectances,
                   const std::array<Eigen::VectorXd, 3>& jackknife, LearntCoatings& learnt) {
   const ReflectanceOptions options;
@@ -167,7 +169,7 @@ void add_surfaces(const CoatingTask& task, const RoundFit& round, const std::vec
     LearntReflectance of{task.surfaces[k], true, reflectances[k], {}, {}};
     for (std::size_t c = 0; c < 3; ++c) {
       const auto at = static_cast<Eigen::Index>(k);
-      of.relative_error[c] = std::max(round[c].fit.error[at], jackknife[c][at]);
+      of.relative_error[c] = std::max({round[c].fit.error[at], jackknife[c][at], std::abs(round[c].fit.x[at])});
       of.determined[c] = of.relative_error[c] <= options.most_error;
     }
     learnt.surfaces.push_back(of);
@@ -227,6 +229,24 @@ Result<LensPhotographs> with_centre_by_ghosts(const LensPhotographs& photographs
   return centred;
 }
 
+// If the last round still changed reflectances by much more than their standard errors, they are not those of the lens.
+void warn_if_unsettled(const CoatingTask& task, const RoundFit& round, LearntCoatings& learnt) {
+  double most = 0.0;
+  std::string names;
+  for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
+    double change = 0.0;
+    for (const ChannelFit& channel : round)
+      change = std::max(change, std::abs(channel.fit.x[static_cast<Eigen::Index>(k)]));
+    most = std::max(most, change);
+    if (change > kUnsettled) names += fmt::format("{}{}", names.empty() ? "" : ", ", task.surfaces[k]);
+  }
+  if (names.empty()) return;
+  learnt.warnings.push_back(fmt::format(
+      "after round {} the reflectances of surfaces {} still change by up to a factor of {:.2f}, so they are not to be "
+      "trusted: the drawn ghosts do not describe the pictures",
+      learnt.rounds, names, std::exp(most)));
+}
+
 // Reads once what the pictures say about the lens as drawn now.
 Result<std::pair<SweepEnergies, RoundFit>> one_round(const CoatingTask& task, const LensState& lens,
                                                      const Context& context) {
@@ -271,6 +291,7 @@ Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const 
       add_surfaces(*task, fits, reflectances, jackknife, learnt);
       add_ghosts(*task, fits, total, learnt);
       add_warnings(*task, fits, learnt);
+      warn_if_unsettled(*task, fits, learnt);
       return learnt;
     }
     for (std::size_t c = 0; c < 3; ++c) total[c] += fits[c].fit.x;
