@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include "caller.h"
 #include "contrejour/renderer.h"
@@ -59,6 +60,7 @@ float half_at(const std::byte* from) {
   std::uint16_t bits = 0;
   std::memcpy(&bits, from, sizeof bits);
   const int exponent = (bits >> 10U) & 31U, fraction = bits & 1023U;
+  if (exponent == 31) return std::numeric_limits<float>::infinity();  // or no number
   const float size = exponent == 0 ? std::ldexp(static_cast<float>(fraction), -24)
                                    : std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
   return (bits & 0x8000U) != 0 ? -size : size;
