@@ -145,7 +145,6 @@ TEST_CASE("learn coatings: a coating that is known by three means reflects as fi
   CHECK(worst_at_angle(surface, 60.0) < 0.01);
   for (const CoatingDesign several : {CoatingDesign::VCoat, CoatingDesign::WCoat, CoatingDesign::QuarterHalfQuarter}) {
     surface.coating = {"", DesignedCoating{several, 550.0}};
-    MESSAGE("of several films, at 0 and 40 degrees: ", worst_at_angle(surface, 0.0), ", ",
-            worst_at_angle(surface, 40.0));
+    CHECK(worst_at_angle(surface, 40.0) < 0.4);
   }
 }
