@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "measure/fit/amplitudes.h"
 #include "measure/fit/ghost_start.h"
 #include "measure/fit/halo.h"
 #include "measure/fit/stations.h"
@@ -89,6 +90,17 @@ std::vector<WalchCost> all_costs(const MeasuredFlare& flare, const std::vector<F
   return costs;
 }
 
+// The levels that the pictures say, for the outlines as they are: ghosts that overlap were each given all of the light
+// that is there. The descent changes levels one by one.
+MeasuredFlare with_shared_light(const std::vector<FitStation>& stations, const MeasuredFlare& flare,
+                                const Context& context) {
+  AmplitudeSettings settings;
+  settings.profile_coefficients = 0;
+  settings.huber = kQuadratic;
+  MeasuredFlare shared = with_best_amplitudes(stations, flare, settings, context);
+  return check_flare(shared) ? shared : flare;
+}
+
 // The joint fit, with the paper's cost wherever it has a new estimate. That cost's own pictures are not counted.
 std::vector<CostProgress> our_progress(const std::vector<FitStation>& stations, MeasuredFlare flare,
                                        const ComparisonSettings& settings, const Context& context) {
@@ -96,6 +108,8 @@ std::vector<CostProgress> our_progress(const std::vector<FitStation>& stations, 
   double evaluations = 0.0;
   for (int degree = 0; degree < kComparedDegrees; ++degree) {
     for (MeasuredGhost& ghost : flare.ghosts) ghost = with_degree(ghost, degree);
+    flare = with_shared_light(stations, flare, context);
+    evaluations += AmplitudeSettings{}.rounds * static_cast<double>(stations.size());
     FlareProblem problem(stations, flare);
     problem.huber = kQuadratic;
     problem.context = context;
