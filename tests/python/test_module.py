@@ -190,8 +190,9 @@ class RenderTest(unittest.TestCase):
             timer.start()
             with self.assertRaises(contrejour.CancelledError, msg=name):
                 call()
-            # Processor time, of two threads at most beside the timer's own, which other programs do not lengthen.
-            self.assertLess(time.process_time() - flagged[0], 0.2, name)
+            # Processor time, of two threads at most beside the timer's own. Programs on the same core's other thread
+            # lengthen it by up to half.
+            self.assertLess(time.process_time() - flagged[0], 0.3, name)
             timer.join()
         self.assertTrue(flag.is_set())
         with self.assertRaises(contrejour.CancelledError):
