@@ -76,7 +76,7 @@ class CONTREJOUR_API Renderer {
                                      const Context& context = {});
 
   // Renders into an image or buffer of the device of set_vulkan_device(), whose work has finished when this returns.
-  // What the device does not draw whole, the CPU draws, and the picture is uploaded; RenderStatistics::device says so.
+  // A frame that the device cannot draw as a whole is drawn by the CPU and uploaded; RenderStatistics::device says so.
   // Errors: also a target that does not suit the frame. After an error the target and its semaphores are untouched,
   // unless the device was lost or gave no answer.
   [[nodiscard]] Result<RenderStatistics> render_to_vulkan(std::span<const Light> lights, const FrameSettings& settings,

@@ -37,7 +37,7 @@ class NearField {
   // The flux over a square; points beyond the octaves count as dark.
   [[nodiscard]] std::array<double, 3> flux(const SquareAt& square) const;
 
-  // What flux() is computed from, for devices that compute it themselves (src/vulkan/shaders/starburst/near.comp).
+  // The data of flux(), for devices that compute it themselves (src/vulkan/shaders/starburst/near.comp).
   [[nodiscard]] std::span<const Octave> octaves() const { return octaves_; }
 
  private:

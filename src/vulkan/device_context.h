@@ -119,7 +119,7 @@ class DeviceContext {
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
   void barrier();  // what follows sees what came before
   void finish(const QueueSemaphores& semaphores = {});  // submits, and waits for the end
-  // What is recorded besides, between begin() and finish().
+  // For commands that this class does not record itself, between begin() and finish().
   [[nodiscard]] const vk::raii::CommandBuffer& commands() const { return commands_.front(); }
   void copy(const Buffer& from, std::uint64_t from_byte, Slot to, std::uint64_t bytes);
   // Copies the first bytes of a buffer to where the host reads them: read() at the same byte, after finish().

@@ -26,7 +26,7 @@ std::vector<std::string> missing_handles(const VulkanHandles& lent) {
   return missing;
 }
 
-// What was chosen when instance and device were made, and cannot be asked for later.
+// Lists what is wrong with the version and the features that instance and device were made with.
 std::vector<std::string> missing_choices(const VulkanHandles& lent) {
   std::vector<std::string> missing;
   if (lent.api_version < VK_API_VERSION_1_3)

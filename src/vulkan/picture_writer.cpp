@@ -17,7 +17,8 @@ struct RgbaParameters {
   std::uint32_t first = 0, count = 0, is_half = 0;
 };
 
-// What a caller did before, and will do afterwards, is not known. Hosts read a mapped buffer after the call.
+// A caller may have used its image or buffer in any way before, and may do so afterwards; the host may read a mapped
+// buffer after the call.
 constexpr vk::PipelineStageFlags kCallersStages = WriterStage::eAllCommands;
 constexpr vk::AccessFlags kCallersAccess = Access::eMemoryRead | Access::eMemoryWrite;
 

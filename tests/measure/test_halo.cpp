@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -30,6 +31,32 @@ FitStation station_with_light_at(Vec2 light_px) {
   return station;
 }
 
+// Nine stations across the axis, which change(station, x, y, offset from the light) makes differ at each pixel.
+struct HaloSweep {
+  std::vector<FitStation> stations;
+  std::vector<Vec2> lights;
+};
+
+template <class Change>
+HaloSweep sweep_across(const Change& change) {
+  HaloSweep sweep;
+  for (int k = 0; k < 9; ++k) {
+    const Vec2 light{20.3 + 10.0 * k, 37.8};
+    FitStation station = station_with_light_at(light);
+    station.s = std::abs(0.1 * (k - 4));
+    station.frame.to_light = {k < 4 ? -0.8 : 0.8, 0.6};  // y up
+    for (int y = 0; y < station.rate.height; ++y)
+      for (int x = 0; x < station.rate.width; ++x) change(station, x, y, Vec2{x + 0.5, y + 0.5} - light);
+    sweep.lights.push_back(light);
+    sweep.stations.push_back(std::move(station));
+  }
+  return sweep;
+}
+
+void multiply(FitStation& station, int x, int y, double factor) {
+  for (int c = 0; c < 3; ++c) station.rate.at(x, y, c) *= static_cast<float>(factor);
+}
+
 }  // namespace
 
 TEST_CASE("halo: what moves with the light is subtracted, a ghost in it stays") {
@@ -53,15 +80,9 @@ TEST_CASE("halo: what moves with the light is subtracted, a ghost in it stays") 
 
 TEST_CASE("halo: its level changes with the angle, and by a little from station to station") {
   const auto level_of = [](double s, double deviation) { return (1.0 - 2.0 * s * s) * deviation; };
-  std::vector<FitStation> stations;
-  std::vector<Vec2> lights;
-  for (int k = 0; k < 9; ++k) {
-    lights.push_back({20.3 + 10.0 * k, 37.8});
-    FitStation station = station_with_light_at(lights.back());
-    station.s = std::abs(0.1 * (k - 4));
-    for (float& v : station.rate.pixels) v *= static_cast<float>(level_of(station.s, k == 2 ? 1.02 : 1.0));
-    stations.push_back(std::move(station));
-  }
+  auto [stations, lights] =
+      sweep_across([&](FitStation& of, int x, int y, Vec2 /*offset*/) { multiply(of, x, y, level_of(of.s, 1.0)); });
+  for (float& v : stations[2].rate.pixels) v *= 1.02F;
   const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
   CHECK(halo.scale(0.0) == 1.0);
   for (const double s : {0.2, 0.4}) CHECK(halo.scale(s) == test::approx(level_of(s, 1.0)).epsilon(0.01));
@@ -77,20 +98,10 @@ TEST_CASE("halo: its level changes with the angle, and by a little from station 
 // A light so bright that every exposure saturates out to 25 pixels, which is more than four times the mask's radius.
 TEST_CASE("halo: beside a large saturated middle, its level is known as well, and nothing nearer is fitted") {
   constexpr double kSaturated_px = 25.0;
-  std::vector<FitStation> stations;
-  std::vector<Vec2> lights;
-  for (int k = 0; k < 9; ++k) {
-    lights.push_back({20.3 + 10.0 * k, 37.8});
-    FitStation station = station_with_light_at(lights.back());
-    for (int y = 0; y < 80; ++y) {
-      for (int x = 0; x < 120; ++x) {
-        const double r = std::hypot(x + 0.5 - lights.back().x, y + 0.5 - lights.back().y);
-        for (int c = 0; c < 3 && r < kSaturated_px; ++c) station.weight.at(x, y, c) = 0.0F;
-      }
-    }
-    for (float& v : station.rate.pixels) v *= k == 2 ? 1.02F : 1.0F;
-    stations.push_back(std::move(station));
-  }
+  auto [stations, lights] = sweep_across([&](FitStation& of, int x, int y, Vec2 offset) {
+    for (int c = 0; c < 3 && length(offset) < kSaturated_px; ++c) of.weight.at(x, y, c) = 0.0F;
+  });
+  for (float& v : stations[2].rate.pixels) v *= 1.02F;
   const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
   CHECK(halo_deviation(halo, stations[2], lights[2], 6.0) == test::approx(1.02).epsilon(0.005));
   FitStation& middle = stations[4];
@@ -107,23 +118,11 @@ TEST_CASE("halo: beside a large saturated middle, its level is known as well, an
 
 TEST_CASE("halo: a pupil that vignetting makes oblong") {
   constexpr double kOblong = 0.5;
-  std::vector<FitStation> stations;
-  std::vector<Vec2> lights;
-  for (int k = 0; k < 9; ++k) {
-    lights.push_back({20.3 + 10.0 * k, 37.8});
-    FitStation station = station_with_light_at(lights.back());
-    station.s = std::abs(0.1 * (k - 4));
-    station.frame.to_light = {k < 4 ? -0.8 : 0.8, 0.6};  // y up
-    const double turn = std::atan2(-station.frame.to_light.y, station.frame.to_light.x);
-    for (int y = 0; y < 80; ++y) {
-      for (int x = 0; x < 120; ++x) {
-        const double phi = std::atan2(y + 0.5 - lights.back().y, x + 0.5 - lights.back().x) - turn;
-        const double level = 1.0 + kOblong * station.s * station.s * std::cos(2.0 * phi);
-        for (int c = 0; c < 3; ++c) station.rate.at(x, y, c) *= static_cast<float>(level);
-      }
-    }
-    stations.push_back(std::move(station));
-  }
+  auto [stations, lights] = sweep_across([&](FitStation& of, int x, int y, Vec2 offset) {
+    const Vec2 away{of.frame.to_light.x, -of.frame.to_light.y};
+    const double phi = std::atan2(offset.y, offset.x) - std::atan2(away.y, away.x);
+    multiply(of, x, y, 1.0 + kOblong * of.s * of.s * std::cos(2.0 * phi));
+  });
   const HaloProfile halo = halo_of(stations, lights, {6.0, 0.5});
   CHECK(halo.oblong == test::approx(kOblong).epsilon(0.05));
   FitStation last = stations.back();

@@ -18,7 +18,7 @@ FrameSettings starburst_settings(const LensState& lens, int width = 96, int heig
   return settings;
 }
 
-// What a picture's starbursts are, and how exact floats leave them.
+// The starbursts of a picture, and the rounding errors of its floats.
 struct Starbursts {
   std::vector<double> values, rounding;
 };

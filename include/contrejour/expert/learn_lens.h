@@ -50,7 +50,7 @@ struct LearntReflectance {
   int surface = 0;  // 1-based
   bool learnt = false;  // false: cemented, or without power to reflect: it keeps its coating
   Rgb reflectance{};  // at normal incidence, the mean over each channel of the light
-  Rgb relative_error{};  // standard errors
+  Rgb relative_error{};  // standard errors, or the last round's change if that is larger
   std::array<bool, 3> determined{};  // false: the ghosts leave it, or its ratio to others, open
 };
 
@@ -66,6 +66,8 @@ struct LearntCoatings {
   std::vector<std::string> warnings;  // names the surfaces that cannot be told apart
 };
 
+// Coatings from the energies of ghosts. The optical centre of the geometry is found anew from the places of ghosts,
+// unless its error is below 0.1 pixels. Reflectances that do not settle have a warning.
 [[nodiscard]] CONTREJOUR_API Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs,
                                                                    const CoatingFitOptions& options = {},
                                                                    const Context& context = {});

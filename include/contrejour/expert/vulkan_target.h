@@ -37,8 +37,8 @@ struct VulkanHandles {
   std::uint32_t api_version = 0;  // VkApplicationInfo::apiVersion of the instance
   VkPhysicalDevice_T* physical_device = nullptr;
   VkDevice_T* device = nullptr;
-  // Those enabled in `device`: VkDeviceCreateInfo::pEnabledFeatures, or a VkPhysicalDeviceFeatures2's `features`, which
-  // cannot be asked for later. Null: none. It is read before the call returns.
+  // The features that `device` was made with (VkDeviceCreateInfo::pEnabledFeatures, or a VkPhysicalDeviceFeatures2's
+  // `features`), since Vulkan cannot be asked for them later. Null: none. It is read before the call returns.
   const VkPhysicalDeviceFeatures* features = nullptr;
   VkQueue_T* queue = nullptr;  // which computes
   std::uint32_t queue_family = 0;
@@ -48,13 +48,14 @@ struct VulkanHandles {
 // the others as they are.
 CONTREJOUR_API void enable_vulkan_features(VkPhysicalDeviceFeatures& features);
 
-// What a lent device lacks, each by its name in Vulkan or in VulkanHandles, with the reason; empty: it is usable.
+// Lists everything that a lent device lacks by its name in Vulkan or in VulkanHandles, with the reason; empty: the
+// device is usable.
 // Handles that are neither null nor Vulkan's are undefined behaviour.
 [[nodiscard]] CONTREJOUR_API std::vector<std::string> missing_for_vulkan(const VulkanHandles& handles);
 
-// Of a pixel: red, green, blue, and an alpha of 0, with which the operator "over" adds a premultiplied flare to what is
-// behind it. Scene-linear, as the pixels of other targets. Half floats end at 65504, to which larger values are
-// clipped.
+// The formats of a pixel: red, green, blue, and an alpha of 0, with which the operator "over" adds the premultiplied
+// flare to its background. Values are scene-linear, as in other targets. Half floats end at 65504, to which larger
+// values are clipped.
 inline constexpr std::uint32_t kVulkanRgba32Float = 109;  // VK_FORMAT_R32G32B32A32_SFLOAT
 inline constexpr std::uint32_t kVulkanRgba16Float = 97;  // VK_FORMAT_R16G16B16A16_SFLOAT
 

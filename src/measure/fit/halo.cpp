@@ -79,10 +79,11 @@ double direction_of(int x, int y, Vec2 light_px, const FitStation& station) {
   return std::atan2(cross(away, offset), dot(away, offset));
 }
 
-// A station's pixels near the light: level(ratio, direction) is given each channel's level over that of the profile.
-template <class Level>
+// Calls use(ratio, direction) for each channel of a station's pixels near the light, with its level over that of the
+// profile.
+template <class Use>
 void for_each_near(const HaloProfile& halo, const FitStation& station, Vec2 light_px, double masked_px,
-                   const Level& level) {
+                   const Use& use) {
   const double measured_px = halo.radius_px.empty() ? 0.0 : halo.radius_px.front();
   const double from = std::max(masked_px, measured_px);
   const double reach = std::max(kNear * masked_px, kNearSaturated * measured_px);
@@ -95,7 +96,7 @@ void for_each_near(const HaloProfile& halo, const FitStation& station, Vec2 ligh
       for (int c = 0; c < 3; ++c) {
         const double usual = halo.at(r, static_cast<std::size_t>(c));
         if (usual > 0.0 && station.weight.at(x, y, c) > 0.0F)
-          level(static_cast<double>(station.rate.at(x, y, c)) / usual, direction_of(x, y, light_px, station));
+          use(static_cast<double>(station.rate.at(x, y, c)) / usual, direction_of(x, y, light_px, station));
       }
     }
   }

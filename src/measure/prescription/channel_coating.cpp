@@ -20,7 +20,7 @@ constexpr std::array<double, 11> kAngles_deg{0, 10, 20, 30, 40, 50, 60, 70, 80, 
 constexpr double kLeast = 1e-5;  // reflectance of a table
 constexpr double kDigits = 1e7;               // a table's numbers are whole multiples of 1 / kDigits
 
-// Films that are tried: a single one, of any index and thickness.
+// The single films that are tried.
 constexpr int kFilmIndices = 40, kFilmThicknesses = 64;
 constexpr double kLeastFilmIndex = 1.2, kFilmIndexStep = 0.02;
 constexpr double kThinnest_nm = 360.0, kThicknessStep_nm = 10.0;  // four times index and width

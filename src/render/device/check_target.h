@@ -13,7 +13,7 @@ namespace contrejour::inline internal {
 // image cannot be left.
 [[nodiscard]] Result<void> check_target(const VulkanTarget& target, int width, int height);
 
-// Of a pixel; 0: the format is none that is written.
+// The bytes of a pixel in a format; 0: pictures are not written in it.
 [[nodiscard]] std::uint32_t pixel_bytes(std::uint32_t format);
 
 }  // namespace contrejour::inline internal

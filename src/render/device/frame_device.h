@@ -41,7 +41,7 @@ struct DeviceGrid {
   Vec2 shift_mm{};  // of the ghost, on the sensor
 };
 
-// What becomes of a picture. Unless it is read, the values of the image on the host are left undefined.
+// The use of a picture after it was drawn. Unless it is read, the image on the host is left undefined.
 enum class PictureUse : std::uint8_t {
   Read,  // into the image
   Kept,  // on the device, for FrameDevice::write(); read if the device cannot add all starbursts
