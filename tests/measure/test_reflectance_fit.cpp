@@ -23,7 +23,7 @@ ReflectanceFit fit_of(const std::vector<GhostSurfaces>& ghosts, const std::vecto
     for (const int unknown : ghosts[k].unknown) sum += unknown >= 0 ? x[static_cast<std::size_t>(unknown)] : 0.0;
     ratio[static_cast<Eigen::Index>(k)] = std::exp(sum);
   }
-  return fit_logarithms(ghosts, ratio, 0.01 * ratio, static_cast<int>(x.size()), {});
+  return fit_logarithms(ghosts, ratio, 0.01 * ratio, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x.size())), {});
 }
 
 }  // namespace
@@ -57,13 +57,25 @@ TEST_CASE("reflectance fit: the warning names the sides of an even cycle, and su
   CHECK(texts[1].find("surface 9") != std::string::npos);
 }
 
+TEST_CASE("reflectance fit: what the ghosts leave open is as expected") {
+  const std::vector<GhostSurfaces> one{{{0, 1}}};
+  const Eigen::VectorXd ratio = Eigen::VectorXd::Constant(1, std::exp(0.5));
+  Eigen::VectorXd expected(3);
+  expected << 0.4, 0.3, -0.6;
+  const ReflectanceFit fit = fit_logarithms(one, ratio, 0.01 * ratio, expected, {});
+  CHECK(fit.x[0] + fit.x[1] == test::approx(0.5).epsilon(0.01));
+  CHECK(fit.x[0] - fit.x[1] == test::approx(0.1).epsilon(1e-9));
+  CHECK(fit.x[2] == -0.6);
+  CHECK(fit_logarithms({}, {}, {}, expected, {}).x == expected);
+}
+
 TEST_CASE("reflectance fit: a wrong energy among many counts little") {
   std::vector<GhostSurfaces> all;
   for (int i = 0; i < 5; ++i)
     for (int j = i + 1; j < 5; ++j) all.push_back({{i, j}});
   Eigen::VectorXd ratio = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(all.size()), std::exp(0.4));
   ratio[3] *= 3.0;
-  const ReflectanceFit fit = fit_logarithms(all, ratio, 0.01 * ratio, 5, {});
+  const ReflectanceFit fit = fit_logarithms(all, ratio, 0.01 * ratio, Eigen::VectorXd::Zero(5), {});
   for (int k = 0; k < 5; ++k) CHECK(fit.x[k] == test::approx(0.2).epsilon(0.1));
 }
 

@@ -35,21 +35,24 @@ struct LensPhotographs {
 struct CoatingFitOptions {
   int max_width = 320;  // pictures are reduced by whole numbers to at most this width
   int max_ghosts = 40;  // whose energies are measured: the brightest; all others together are one picture more
-  int max_rounds = 4;  // ghosts are drawn again with the coatings learnt, for their transmittances and colours
+  // Ghosts are drawn again with the coatings learnt, for their transmittances and, from the third round on, colours.
+  int max_rounds = 5;
   double model_error = 0.05;  // of a pixel's value: what a drawn ghost is not expected to describe
 };
 
 // A ghost in the pictures.
 struct GhostEnergy {
   Ghost ghost;
-  Rgb ratio{};  // its energy over that of the lens as it is written, the mean of all angles; 0: none is seen
+  // Its energy over that of the lens as it is written, in the channels of ACEScg, the mean of all angles; 0: none is
+  // seen.
+  Rgb ratio{};
   Rgb error{};  // standard error of the ratio; 0: the ghost reaches no picture
 };
 
 struct LearntReflectance {
   int surface = 0;  // 1-based
   bool learnt = false;  // false: cemented, or without power to reflect: it keeps its coating
-  Rgb reflectance{};  // at normal incidence, the mean over each channel of the light
+  Rgb reflectance{};  // at normal incidence, the mean over each channel of the light in ACEScg
   Rgb relative_error{};  // standard errors, or the last round's change if that is larger
   std::array<bool, 3> determined{};  // false: the ghosts leave it, or its ratio to others, open
 };

@@ -6,10 +6,18 @@
 #include <array>
 #include <vector>
 
-#include "measure/prescription/reflectance_fit.h"
+#include <Eigen/Core>
+
 #include "measure/prescription/station_matrix.h"
 
 namespace contrejour::inline internal {
+
+// Energies of ghosts over those expected, in one channel: the cost of ratios a is (yy - 2 b a + a^T A a) / 2.
+struct EnergyEquations {
+  Eigen::MatrixXd a;
+  Eigen::VectorXd b;
+  double yy = 0;
+};
 
 // For each station and channel: the equations of the ghosts' ratios and of the halo, which is the same at all stations
 // but for small deviations. The deviations, and all other ghosts together, are at their best.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -18,6 +19,7 @@ namespace {
 constexpr int kBands = 16;             // of the spectrum, for means over channels
 constexpr double kUnsettled = 0.25;    // of a logarithm, in the last round
 constexpr double kSettled = 0.01;      // of a logarithm, between two rounds
+constexpr int kNeutralRounds = 2;
 constexpr double kAlike = 0.95;        // correlation of two energies
 constexpr double kLeastError = 0.02;   // of an energy, relative: what drawing and the light's flux leave uncertain
 constexpr double kLeastReflectance = 1e-5;
@@ -43,6 +45,9 @@ struct ChannelFit {
 };
 using RoundFit = std::array<ChannelFit, 3>;
 
+// Logarithms of each surface, for the three channels.
+using Logarithms = std::array<Eigen::VectorXd, 3>;
+
 bool is_coatable(const SurfaceState& surface) {
   return surface.kind == SurfaceKind::Refracting && is_air(surface.before) != is_air(surface.after);
 }
@@ -56,8 +61,8 @@ Result<CoatingTask> prepare(const LensPhotographs& photographs, const CoatingFit
   auto ghosts = visible_ghosts(*stations, *lens, options.max_ghosts, context);
   if (!ghosts) return tl::unexpected(ghosts.error());
   if (ghosts->empty()) return invalid_argument("no ghost of this lens reaches the pictures");
-  CoatingTask task{photographs, options, std::move(*stations), std::move(*ghosts), {}, {}, {}};
-  task.bands = spectral_bands(kBands, photographs.spectrum, ColourSpace::Rec709);
+  CoatingTask task{photographs, options, in_acescg(std::move(*stations)), std::move(*ghosts), {}, {}, {}};
+  task.bands = spectral_bands(kBands, photographs.spectrum, task.stations.space);
   std::vector<int> unknown_of(lens->surfaces.size(), -1);
   for (std::size_t k = 0; k < photographs.lens.surfaces.size(); ++k) {
     if (!is_coatable(lens->surfaces[k])) continue;
@@ -109,25 +114,24 @@ EnergyEquations widened(const EnergyEquations& of, const Eigen::VectorXd& varian
 }
 
 ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel,
-                       const Eigen::VectorXd& scatter, std::ptrdiff_t without = -1) {
+                       const Eigen::VectorXd& scatter, const Eigen::VectorXd& expected, std::ptrdiff_t without = -1) {
   EnergyEquations of = energies.sum(channel, without);
   const Eigen::VectorXd ratio = nonnegative_least_squares(of.a, of.b).x;
   of = widened(scaled(of, ratio, energies.pixels(channel)), scatter + kLeastError * kLeastError * ratio.cwiseAbs2());
   ChannelFit fit{nonnegative_least_squares(of.a, of.b), {}};
-  fit.fit =
-      fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error, static_cast<int>(task.surfaces.size()), {});
-  fit.fit.x = refined_logarithms(task.unknowns_of, of, fit.fit.x, {});
+  fit.fit = fit_logarithms(task.unknowns_of, fit.energies.x, fit.energies.error, expected, {});
   return fit;
 }
 
 // Standard errors of the reflectances' logarithms by leaving out each station once.
-Eigen::VectorXd jackknife_errors(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel) {
+Eigen::VectorXd jackknife_errors(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel,
+                                 const Eigen::VectorXd& expected) {
   const std::size_t count = energies.by_station.size();
   const Eigen::VectorXd scatter = scatter_of(energies, channel);
   std::vector<Eigen::VectorXd> all;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task.surfaces.size()));
   for (std::size_t k = 0; k < count; ++k) {
-    all.push_back(fit_channel(task, energies, channel, scatter, static_cast<std::ptrdiff_t>(k)).fit.x);
+    all.push_back(fit_channel(task, energies, channel, scatter, expected, static_cast<std::ptrdiff_t>(k)).fit.x);
     mean += all.back() / static_cast<double>(count);
   }
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(mean.size());
@@ -147,6 +151,31 @@ std::vector<Rgb> reflectances_of(const CoatingTask& task, const LensState& lens)
   return all;
 }
 
+// The same reflectance in all channels.
+std::vector<Rgb> without_colour(std::vector<Rgb> reflectances) {
+  for (Rgb& of : reflectances) of.fill(std::cbrt(of[0] * of[1] * of[2]));
+  return reflectances;
+}
+
+Logarithms logarithms_of(const std::vector<Rgb>& reflectances, const std::vector<Rgb>& over) {
+  Logarithms all;
+  for (std::size_t c = 0; c < 3; ++c) {
+    all[c].resize(static_cast<Eigen::Index>(over.size()));
+    for (std::size_t k = 0; k < over.size(); ++k)
+      all[c][static_cast<Eigen::Index>(k)] = std::log(reflectances[k][c] / over[k][c]);
+  }
+  return all;
+}
+
+// What a round says of a lens that was drawn with these.
+std::vector<Rgb> learnt_reflectances(const RoundFit& round, std::vector<Rgb> drawn) {
+  for (std::size_t k = 0; k < drawn.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      drawn[k][c] =
+          std::clamp(drawn[k][c] * std::exp(round[c].fit.x[static_cast<Eigen::Index>(k)]), kLeastReflectance, 1.0);
+  return drawn;
+}
+
 void set_coatings(const CoatingTask& task, const LensState& state, const std::vector<Rgb>& reflectances,
                   Prescription& lens) {
   for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
@@ -155,21 +184,21 @@ void set_coatings(const CoatingTask& task, const LensState& state, const std::ve
   }
 }
 
-double largest_change(const RoundFit& round) {
+double largest(const Logarithms& of) {
   double most = 0.0;
-  for (const ChannelFit& channel : round) most = std::max(most, channel.fit.x.cwiseAbs().maxCoeff());
+  for (const Eigen::VectorXd& channel : of) most = std::max(most, channel.cwiseAbs().maxCoeff());
   return most;
 }
 
 // Errors are not below the last round's change.
 void add_surfaces(const CoatingTask& task, const RoundFit& round, const std::vector<Rgb>& reflectances,
-                  const std::array<Eigen::VectorXd, 3>& jackknife, LearntCoatings& learnt) {
+                  const Logarithms& jackknife, const Logarithms& change, LearntCoatings& learnt) {
   const ReflectanceOptions options;
   for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
     LearntReflectance of{task.surfaces[k], true, reflectances[k], {}, {}};
     for (std::size_t c = 0; c < 3; ++c) {
       const auto at = static_cast<Eigen::Index>(k);
-      of.relative_error[c] = std::max({round[c].fit.error[at], jackknife[c][at], std::abs(round[c].fit.x[at])});
+      of.relative_error[c] = std::max({round[c].fit.error[at], jackknife[c][at], std::abs(change[c][at])});
       of.determined[c] = of.relative_error[c] <= options.most_error;
     }
     learnt.surfaces.push_back(of);
@@ -178,17 +207,16 @@ void add_surfaces(const CoatingTask& task, const RoundFit& round, const std::vec
   for (std::size_t c = 0; c < 3; ++c) learnt.rank[c] = round[c].fit.rank;
 }
 
-// total: by how much reflectances have changed since the lens as it was written, before this round.
-void add_ghosts(const CoatingTask& task, const RoundFit& round, const std::array<Eigen::VectorXd, 3>& total,
-                LearntCoatings& learnt) {
+// expected: of the lens as it is written, over that which was drawn.
+void add_ghosts(const CoatingTask& task, const RoundFit& round, const Logarithms& expected, LearntCoatings& learnt) {
   for (std::size_t g = 0; g < task.ghosts.size(); ++g) {
     GhostEnergy energy{task.ghosts[g], {}, {}};
     for (std::size_t c = 0; c < 3; ++c) {
-      double since = 0.0;
-      for (const int unknown : task.unknowns_of[g].unknown) since += unknown >= 0 ? total[c][unknown] : 0.0;
+      double written = 0.0;
+      for (const int unknown : task.unknowns_of[g].unknown) written += unknown >= 0 ? expected[c][unknown] : 0.0;
       const auto at = static_cast<Eigen::Index>(g);
-      energy.ratio[c] = std::exp(since) * round[c].energies.x[at];
-      energy.error[c] = std::exp(since) * round[c].energies.error[at];
+      energy.ratio[c] = std::exp(-written) * round[c].energies.x[at];
+      energy.error[c] = std::exp(-written) * round[c].energies.error[at];
     }
     learnt.ghosts.push_back(energy);
     for (std::size_t h = 0; h < g; ++h) {
@@ -230,13 +258,13 @@ Result<LensPhotographs> with_centre_by_ghosts(const LensPhotographs& photographs
 }
 
 // If the last round still changed reflectances by much more than their standard errors, they are not those of the lens.
-void warn_if_unsettled(const CoatingTask& task, const RoundFit& round, LearntCoatings& learnt) {
+void warn_if_unsettled(const CoatingTask& task, const Logarithms& last_change, LearntCoatings& learnt) {
   double most = 0.0;
   std::string names;
   for (std::size_t k = 0; k < task.surfaces.size(); ++k) {
     double change = 0.0;
-    for (const ChannelFit& channel : round)
-      change = std::max(change, std::abs(channel.fit.x[static_cast<Eigen::Index>(k)]));
+    for (const Eigen::VectorXd& channel : last_change)
+      change = std::max(change, std::abs(channel[static_cast<Eigen::Index>(k)]));
     most = std::max(most, change);
     if (change > kUnsettled) names += fmt::format("{}{}", names.empty() ? "" : ", ", task.surfaces[k]);
   }
@@ -247,14 +275,30 @@ void warn_if_unsettled(const CoatingTask& task, const RoundFit& round, LearntCoa
       learnt.rounds, names, std::exp(most)));
 }
 
-// Reads once what the pictures say about the lens as drawn now.
-Result<std::pair<SweepEnergies, RoundFit>> one_round(const CoatingTask& task, const LensState& lens,
-                                                     const Context& context) {
+// A round: the ghosts drawn with these reflectances, and what the pictures say of them.
+struct Round {
+  SweepEnergies energies;
+  Logarithms expected;  // of the lens as it is written, over those that are drawn
+  RoundFit fit;
+};
+
+Result<Round> one_round(const CoatingTask& task, const LensState& lens, Logarithms expected, const Context& context) {
   auto energies = sweep_energies({&task.stations, lens, task.ghosts, task.options.model_error}, context);
   if (!energies) return tl::unexpected(energies.error());
-  RoundFit round;
-  for (std::size_t c = 0; c < 3; ++c) round[c] = fit_channel(task, *energies, c, scatter_of(*energies, c));
-  return std::pair{std::move(*energies), std::move(round)};
+  Round round{std::move(*energies), std::move(expected), {}};
+  for (std::size_t c = 0; c < 3; ++c)
+    round.fit[c] = fit_channel(task, round.energies, c, scatter_of(round.energies, c), round.expected[c]);
+  return round;
+}
+
+void finish(const CoatingTask& task, const Round& round, const std::vector<Rgb>& reflectances, const Logarithms& change,
+            LearntCoatings& learnt) {
+  Logarithms jackknife;
+  for (std::size_t c = 0; c < 3; ++c) jackknife[c] = jackknife_errors(task, round.energies, c, round.expected[c]);
+  add_surfaces(task, round.fit, reflectances, jackknife, change, learnt);
+  add_ghosts(task, round.fit, round.expected, learnt);
+  add_warnings(task, round.fit, learnt);
+  warn_if_unsettled(task, change, learnt);
 }
 
 }  // namespace
@@ -267,34 +311,32 @@ Result<LearntCoatings> learn_coatings(const LensPhotographs& photographs, const 
   if (!centred) return tl::unexpected(centred.error());
   const auto task = prepare(*centred, options, context);
   if (!task) return tl::unexpected(task.error());
+  auto lens = configure_lens(photographs.lens, photographs.settings);
+  if (!lens) return tl::unexpected(lens.error());
+  const std::vector<Rgb> written = reflectances_of(*task, *lens);
+  LensSettings settings = photographs.settings;
+  settings.coating.reset();  // those that are learnt count
+  settings.coating_at.clear();
   LearntCoatings learnt;
   learnt.lens = photographs.lens;
-  std::array<Eigen::VectorXd, 3> total;
-  total.fill(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task->surfaces.size())));
-  LensSettings settings = photographs.settings;
+  std::vector<Rgb> reflectances = written;
   while (true) {
-    const auto lens = configure_lens(learnt.lens, settings);
+    // A coating that is far from the lens's makes a channel's picture of a ghost from the ends of its band, at other
+    // places than the ghost's, and what is learnt from it does not come near. The first rounds have no colours.
+    const std::vector<Rgb> drawn = learnt.rounds < kNeutralRounds ? without_colour(reflectances) : reflectances;
+    set_coatings(*task, *lens, drawn, learnt.lens);
+    lens = configure_lens(learnt.lens, settings);
     if (!lens) return tl::unexpected(lens.error());
-    const auto round = one_round(*task, *lens, context);
+    const auto round = one_round(*task, *lens, logarithms_of(written, drawn), context);
     if (!round) return tl::unexpected(round.error());
-    const auto& [energies, fits] = *round;
-    std::vector<Rgb> reflectances = reflectances_of(*task, *lens);
-    for (std::size_t k = 0; k < reflectances.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c) reflectances[k][c] *= std::exp(fits[c].fit.x[static_cast<Eigen::Index>(k)]);
-    set_coatings(*task, *lens, reflectances, learnt.lens);
-    settings.coating.reset();  // from now on those that were learnt count
-    settings.coating_at.clear();
+    const std::vector<Rgb> before = std::exchange(reflectances, learnt_reflectances(round->fit, drawn));
+    const Logarithms change = logarithms_of(reflectances, before);
     ++learnt.rounds;
-    if (learnt.rounds == options.max_rounds || largest_change(fits) < kSettled) {
-      std::array<Eigen::VectorXd, 3> jackknife;
-      for (std::size_t c = 0; c < 3; ++c) jackknife[c] = jackknife_errors(*task, energies, c);
-      add_surfaces(*task, fits, reflectances, jackknife, learnt);
-      add_ghosts(*task, fits, total, learnt);
-      add_warnings(*task, fits, learnt);
-      warn_if_unsettled(*task, fits, learnt);
+    if (learnt.rounds == options.max_rounds || (learnt.rounds > kNeutralRounds && largest(change) < kSettled)) {
+      set_coatings(*task, *lens, reflectances, learnt.lens);
+      finish(*task, *round, reflectances, change, learnt);
       return learnt;
     }
-    for (std::size_t c = 0; c < 3; ++c) total[c] += fits[c].fit.x;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "measure/prescription/lens_stations.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <memory>
@@ -41,6 +42,27 @@ SizedSweep sized(const FlareSweep& sweep) {
   return all;
 }
 
+// columns: what each channel of the picture adds to those of the other space.
+void convert_pixel(FitStation& station, int x, int y, const std::array<Rgb, 3>& columns) {
+  Rgb rate{}, variance{};
+  bool known = true;
+  for (int c = 0; c < 3; ++c) {
+    const auto value = static_cast<double>(station.rate.at(x, y, c)),
+               weight = static_cast<double>(station.weight.at(x, y, c));
+    known = known && weight > 0.0;
+    for (std::size_t to = 0; to < 3; ++to) {
+      const double factor = columns[static_cast<std::size_t>(c)][to];
+      rate[to] += factor * value;
+      if (weight > 0.0) variance[to] += factor * factor / weight;
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    station.rate.at(x, y, c) = static_cast<float>(rate[at]);
+    station.weight.at(x, y, c) = known ? static_cast<float>(1.0 / variance[at]) : 0.0F;
+  }
+}
+
 }  // namespace
 
 Result<LensStations> lens_stations(const LensPhotographs& photographs, const LensState& lens, int max_width,
@@ -65,6 +87,22 @@ Result<LensStations> lens_stations(const LensPhotographs& photographs, const Len
   stations.source_radius_rad = photographs.source_radius_rad;
   stations.is_mosaic = *with_size.mosaic;
   stations.spectrum = photographs.spectrum;
+  return stations;
+}
+
+LensStations in_acescg(LensStations stations) {
+  if (stations.space == ColourSpace::AcesCg) return stations;
+  std::array<Rgb, 3> of;  // ACEScg of each channel by itself
+  for (std::size_t c = 0; c < 3; ++c) {
+    Rgb unit{};
+    unit[c] = 1.0;
+    of[c] = rgb_from_xyz(xyz_from_rgb(unit, stations.space), ColourSpace::AcesCg);
+  }
+  for (FitStation& station : stations.pictures.stations) {
+    for (int y = 0; y < station.rate.height; ++y)
+      for (int x = 0; x < station.rate.width; ++x) convert_pixel(station, x, y, of);
+  }
+  stations.space = ColourSpace::AcesCg;
   return stations;
 }
 
@@ -97,6 +135,7 @@ Result<std::vector<Patch>> ghost_patches(const LensStations& stations, std::size
   const Light light = light_of(stations, k, lens, frame);
   FrameSettings settings;
   settings.frame = frame;
+  settings.colour_space = stations.space;
   LayerOptions options;
   options.by = LayersBy::Ghost;
   options.ghosts = ghosts;

@@ -22,10 +22,15 @@ struct LensStations {
   double source_radius_rad = 0;
   bool is_mosaic = false;  // red and blue are interpolated
   Spectrum spectrum = IlluminantD65{};
+  ColourSpace space = ColourSpace::Rec709;  // of the pictures, and of those that are drawn
 };
 
 [[nodiscard]] Result<LensStations> lens_stations(const LensPhotographs& photographs, const LensState& lens,
                                                  int max_width, const Context& context);
+
+// The same stations with their pictures in ACEScg, of which every channel is positive for all wavelengths but for a few
+// thousandths. A pixel counts if all its channels are known.
+[[nodiscard]] LensStations in_acescg(LensStations stations);
 
 // The radius about the light's image that no fit uses.
 [[nodiscard]] double masked_px(const LensStations& stations);

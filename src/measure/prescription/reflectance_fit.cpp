@@ -7,15 +7,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
-#include "measure/fit/levenberg_marquardt.h"
-
 namespace contrejour::inline internal {
 namespace {
 
 constexpr double kMostRelativeError = 0.35;  // of an energy that has a logarithm
-constexpr double kHuberOfRatios = 2.0;               // standard deviations
+constexpr double kHuberOfRatios = 2.0;       // standard deviations
 constexpr int kRobustRounds = 6;
-constexpr double kMostChange = 6.0;  // of a logarithm: a factor of 400
 
 struct LinearProblem {
   Eigen::MatrixXd rows;  // one for each ghost with a logarithm, in standard deviations
@@ -63,16 +60,19 @@ Eigen::VectorXd robust_solution(const LinearProblem& problem, double prior) {
 }  // namespace
 
 ReflectanceFit fit_logarithms(std::span<const GhostSurfaces> ghosts, const Eigen::VectorXd& ratio,
-                              const Eigen::VectorXd& error, int unknowns, const ReflectanceOptions& options) {
-  const LinearProblem problem = linear_problem(ghosts, ratio, error, unknowns);
+                              const Eigen::VectorXd& error, const Eigen::VectorXd& expected,
+                              const ReflectanceOptions& options) {
+  const auto unknowns = static_cast<int>(expected.size());
+  LinearProblem problem = linear_problem(ghosts, ratio, error, unknowns);
   ReflectanceFit fit;
   fit.error = Eigen::VectorXd::Constant(unknowns, options.prior);
   if (problem.rows.rows() == 0) {
-    fit.x = Eigen::VectorXd::Zero(unknowns);
+    fit.x = expected;
     for (int k = 0; k < unknowns; ++k) fit.open.push_back(Eigen::VectorXd::Unit(unknowns, k));
     return fit;
   }
-  fit.x = robust_solution(problem, options.prior);
+  problem.right -= problem.rows * expected;
+  fit.x = expected + robust_solution(problem, options.prior);
   // Along a singular vector, x has the standard error 1 / (singular value).
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(problem.rows, Eigen::ComputeFullV);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(unknowns);
@@ -89,33 +89,6 @@ ReflectanceFit fit_logarithms(std::span<const GhostSurfaces> ghosts, const Eigen
   }
   fit.error = variance.cwiseSqrt();
   return fit;
-}
-
-Eigen::VectorXd refined_logarithms(std::span<const GhostSurfaces> ghosts, const EnergyEquations& energies,
-                                   const Eigen::VectorXd& start, const ReflectanceOptions& options) {
-  const double prior = 1.0 / (options.prior * options.prior);
-  LeastSquaresProblem problem;
-  problem.equations = [&](const Eigen::VectorXd& x) {
-    Eigen::VectorXd ratio = Eigen::VectorXd::Ones(energies.b.size());
-    Eigen::MatrixXd by_x = Eigen::MatrixXd::Zero(energies.b.size(), x.size());
-    for (Eigen::Index k = 0; k < ratio.size(); ++k) {
-      const auto& of = ghosts[static_cast<std::size_t>(k)].unknown;
-      for (const int unknown : of) ratio[k] *= unknown >= 0 ? std::exp(x[unknown]) : 1.0;
-      for (const int unknown : of)
-        if (unknown >= 0) by_x(k, unknown) += ratio[k];
-    }
-    const Eigen::VectorXd off = energies.a * ratio - energies.b;
-    NormalEquations equations;
-    equations.cost = 0.5 * (energies.yy + ratio.dot(off - energies.b) + prior * x.squaredNorm());
-    equations.gradient = by_x.transpose() * off + prior * x;
-    equations.hessian = by_x.transpose() * energies.a * by_x;
-    equations.hessian.diagonal().array() += prior;
-    return equations;
-  };
-  problem.cost = [&](const Eigen::VectorXd& x) { return problem.equations(x).cost; };
-  problem.lower = Eigen::VectorXd::Constant(start.size(), -kMostChange);
-  problem.upper = Eigen::VectorXd::Constant(start.size(), kMostChange);
-  return least_squares(problem, start).parameters;
 }
 
 }  // namespace contrejour::inline internal
