@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "contrejour/expert/first_order.h"
+#include "contrejour/expert/learn_lens.h"
 #include "contrejour/image_io.h"
 #include "flare_fit_cache.h"
 
@@ -31,6 +32,7 @@ namespace {
 constexpr double kLambda_nm = 550.0;
 constexpr double kPart = 0.45;  // of the range: the angle of the comparison
 constexpr double kCounts = 0.3;  // of a ghost's bright level: what belongs to its body
+constexpr std::size_t kStarts = 16;  // ghosts of a known lens, from which a fit may start
 constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
 constexpr double kResolution_px = 0.5;  // the RMS size of a point in a picture: sizes are compared with it
 constexpr double kCoincide = 0.03;  // the same of two true ghosts that no picture could tell apart
@@ -335,6 +337,7 @@ struct Run {
   int stations = 61, raw_width = 1280;
   int width = FlareFitOptions{}.max_width;
   std::string kept, pictures;  // folders; empty: none
+  bool from_lens = false;  // the fit starts from the ghosts of the lens
 };
 
 int run(const std::string& name, const Run& settings) {
@@ -359,6 +362,11 @@ int run(const std::string& name, const Run& settings) {
   FlareFitOptions options;
   options.max_width = settings.width;
   options.pictures = settings.pictures.empty() ? 0 : 8;
+  if (settings.from_lens) {
+    const auto starts = discs_of_lens(lens, taken.angles_deg.back() * kRadians, kStarts);
+    if (!starts) return 1;
+    options.starts = *starts;
+  }
   const Result<FittedFlare> fit = fit_flare(sweep_of(*capture, light), *geometry, options);
   if (!fit) {
     std::printf("%s: %s\n", name.c_str(), fit.error().to_string().c_str());
@@ -394,6 +402,7 @@ int main(int argc, char** argv) {
   if (argc > 4) settings.kept = argv[4];
   if (argc > 5 && std::string(argv[5]) != "-") settings.pictures = argv[5];
   if (argc > 6) settings.width = std::stoi(argv[6]);
+  if (argc > 7) settings.from_lens = std::string(argv[7]) == "lens";
   if (argc > 1 && std::string(argv[1]) != "all") return run(argv[1], settings);
   std::printf("| Lens | Held out | Flux | Found | Error below 10 %% | Speed, size | Centre, px | CPU s | s |\n");
   int failed = 0;

@@ -34,6 +34,15 @@ struct FlareSweep {
   std::vector<std::optional<DirectFlux>> direct = {};
 };
 
+// A disc that moves with the light: the start of a fit.
+struct FoundGhost {
+  double speed = 0;  // of its centre over that of the light's image
+  double radius = 0;  // on the axis, as a tangent
+  double bend = 0, growth = 0;  // for a light at s: centre = speed * s + bend * s^3, radius * (1 + growth * s^2)
+  double first = 0, last = 0;  // tangents of the light's angle between which it is seen
+  double contrast = 0;  // over the usual spread
+};
+
 struct FlareFitOptions {
   int max_ghosts = 24;  // whose edges are found
   int max_small_ghosts = 12;  // of a few pixels, and bright cores of larger ones
@@ -48,16 +57,9 @@ struct FlareFitOptions {
   // coefficients.
   int held_out_every = 5;
   int max_degree = 2;  // coefficients of a curve beyond the fewest
+  // Discs that are tried before any is searched for, the brightest first, as of a known lens (discs_of_lens).
+  std::vector<FoundGhost> starts = {};
   int pictures = 0;  // stations, evenly spaced, whose pictures FittedStation keeps
-};
-
-// A disc that moves with the light: the start of a fit.
-struct FoundGhost {
-  double speed = 0;  // of its centre over that of the light's image
-  double radius = 0;  // on the axis, as a tangent
-  double bend = 0, growth = 0;  // for a light at s: centre = speed * s + bend * s^3, radius * (1 + growth * s^2)
-  double first = 0, last = 0;  // tangents of the light's angle between which it is seen
-  double contrast = 0;  // over the usual spread
 };
 
 // The progress of a fit, for comparison between methods. An image evaluation computes the model of one picture, with

@@ -75,6 +75,12 @@ struct LearntCoatings {
                                                                    const CoatingFitOptions& options = {},
                                                                    const Context& context = {});
 
+// The ghosts of a lens as discs from which fit_flare can start (FlareFitOptions::starts), the brightest first: those
+// with an outline, in a sweep whose light moves up to this angle.
+[[nodiscard]] CONTREJOUR_API Result<std::vector<FoundGhost>> discs_of_lens(const LensState& lens,
+                                                                           double largest_angle_rad, std::size_t most,
+                                                                           const Context& context = {});
+
 // How far a lens may be from its prescription before anything is measured: standard errors. 0: not to be learnt.
 struct LensTolerances {
   double tilt_rad = 0.00175;  // of each body of glass about its middle, about x and about y: 0.1 degrees

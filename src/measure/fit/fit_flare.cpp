@@ -64,20 +64,27 @@ bool add_ghost(FlareFit& fit, const std::vector<FitStation>& residuals, const Fo
   return true;
 }
 
+std::optional<FoundGhost> searched(const FlareFit& fit, const std::vector<FitStation>& residuals,
+                                   const std::vector<FoundGhost>& known) {
+  const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals));
+  return strongest_disc(pictures, {6.0, fit.options.min_contrast}, known, fit.context);
+}
+
 // Finds two thirds of the ghosts at most: dim ones under or beside these show only in what profiles leave.
 void find_all(FlareFit& fit) {
   const int most = (2 * fit.options.max_ghosts + 2) / 3;
   std::vector<FoundGhost> known;
+  std::size_t started = 0;
   int rejected = 0;
   while (static_cast<int>(fit.result.found.size()) < most && rejected < kMostRejected) {
     if (fit.context.cancelled()) return;
     const std::vector<FitStation> residuals = residual_stations(fit.coarse, fit.flare(), fit.context);
-    const std::vector<SearchPicture> pictures = search_pictures(residuals, usual_error(residuals));
-    const auto found = strongest_disc(pictures, {6.0, fit.options.min_contrast}, known, fit.context);
+    const bool is_start = started < fit.options.starts.size();
+    const auto found = is_start ? std::optional(fit.options.starts[started++]) : searched(fit, residuals, known);
     if (!found) return;
     known.push_back(*found);
     if (!add_ghost(fit, residuals, *found)) {
-      ++rejected;
+      rejected += is_start ? 0 : 1;
       continue;
     }
     rejected = 0;
