@@ -11,25 +11,31 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/console.h"
 #include "cli/fit_report.h"
+#include "cli/lens_choice.h"
 #include "cli/long_task.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "contrejour/expert/flare_source.h"
+#include "contrejour/expert/learn_lens.h"
 #include "contrejour/expert/merged_sweep.h"
+#include "contrejour/expert/settings.h"
 
 namespace contrejour::cli {
 namespace {
 
 constexpr const char* kFitExamples =
-    "FOLDER is what `contrejour measure merge` wrote. Ghosts are found in the pictures alone; each fifth station is "
-    "held\n"
-    "out (--held-out): it decides how many coefficients the curves have, and says what the flare is worth at angles\n"
-    "that it was not fitted to. docs/measure.md says how far the figures can be trusted today.\n\n"
+    "FOLDER is what `contrejour measure merge` wrote. Ghosts are found in the pictures alone, unless --lens names the\n"
+    "lens. Each fifth station is held out (--held-out): it decides how many coefficients the curves have, and says "
+    "what\n"
+    "the flare is worth at angles that it was not fitted to. docs/measure.md says how far the figures can be "
+    "trusted.\n\n"
     "Examples:\n"
     "  contrejour measure fit merged -o mine.flare.toml --report mine.html\n"
     "  contrejour measure fit merged -o mine.flare.toml --f-number 1.4 --iso 100 --time 1 --json\n"
-    "  contrejour measure fit merged -o mine.flare.toml --compare-walch costs.svg";
+    "  contrejour measure fit merged -o mine.flare.toml --compare-walch costs.svg\n"
+    "  contrejour measure fit merged -o mine.flare.toml --lens planar-50 -f 4";
 
 constexpr int kReportPictures = 7;
 constexpr int kWidestFitted = 2000;
@@ -49,11 +55,29 @@ Result<std::optional<CaptureExposure>> given_exposure(const CaptureExposure& giv
       "the exposure of the photographs needs --f-number, --iso and --time together, or none of them");
 }
 
+// The ghosts of the lens that is named, as many as the fit looks for by their edges before profiles.
+Result<std::vector<FoundGhost>> starts_of(const FitRequest& request, const MergedSweep& merged,
+                                          const Context& context) {
+  if (request.lens.empty()) return std::vector<FoundGhost>();
+  const auto prescription = prescription_of(request.lens);
+  if (!prescription) return tl::unexpected(prescription.error());
+  const auto lens = params::lens_of(*prescription, request.lens_values);
+  if (!lens) return tl::unexpected(lens.error());
+  print_warnings(lens->warnings);
+  double largest_rad = 0.0;
+  for (const double angle : merged.angles_rad) largest_rad = std::max(largest_rad, std::abs(angle));
+  return discs_of_lens(*lens, largest_rad, static_cast<std::size_t>(request.fit.max_ghosts), context);
+}
+
 Result<FitResult> fitted(const FitRequest& request, const MergedSweep& merged, const SweepGeometry& geometry) {
   const LongTask task("fitting", request.threads);
   const auto start = std::chrono::steady_clock::now();
   const FlareSweep sweep = merged.sweep();
-  auto fit = fit_flare(sweep, geometry, request.fit, task.context());
+  const auto starts = starts_of(request, merged, {request.threads, task.context().cancel, {}});
+  if (!starts) return tl::unexpected(starts.error());
+  FlareFitOptions options = request.fit;
+  options.starts = *starts;
+  auto fit = fit_flare(sweep, geometry, options, task.context());
   if (!fit) return tl::unexpected(fit.error());
   FitResult result;
   result.outcome = {request.name.empty() ? name_of_output(request.output) : request.name, geometry, std::move(*fit),
@@ -171,6 +195,11 @@ void add_measure_fit(CLI::App& measure, Action& action) {
   add_output(*command, "--compare-walch", request->compare, {".svg", ".csv"},
              "costs of this fit and of walch2018's descent from the same start");
   command->add_option("--name", request->name, "the flare's name (default: the file's)")->option_text("NAME");
+  command
+      ->add_option("--lens", request->lens,
+                   "a lens as it was photographed (-f, --focal, --focus): the fit starts from its ghosts")
+      ->option_text("LENS");
+  add_parameters(*command, request->lens_values, {"focal", "fnumber", "focus", "sensor"});
   add_fit_numbers(*command, *request);
   command->add_flag("--json", *json, "print JSON");
   command->footer(kFitExamples);

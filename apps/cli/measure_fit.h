@@ -6,6 +6,7 @@
 
 #include "cli/flare_table.h"
 #include "contrejour/expert/fit_comparison.h"
+#include "contrejour/expert/parameter_values.h"
 
 namespace contrejour::cli {
 
@@ -16,6 +17,8 @@ struct FitRequest {
   std::string csv;      // the stations' figures
   std::string compare;  // the comparison with walch2018's descent, as SVG or CSV
   std::string name;     // of the flare; empty: the output's
+  std::string lens;     // whose ghosts the fit starts from; empty: from none
+  params::Values lens_values;
   CaptureExposure exposure;  // of the photographs; 0: not given
   FlareFitOptions fit;
   ComparisonSettings comparison;

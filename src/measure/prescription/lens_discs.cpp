@@ -64,8 +64,7 @@ Result<std::vector<FoundGhost>> discs_of_lens(const LensState& lens, double larg
   request.frame = frame_on_sensor(
       lens, kPixels, std::max(1, static_cast<int>(kPixels * lens.sensor_height_mm / lens.sensor_width_mm)));
   request.bands = spectral_bands(kBandsTraced, IlluminantD65{}, ColourSpace::Rec709);
-  const double focal_px =
-      first_order(lens, lens.design_wavelength_nm).focal_length_mm / request.frame.pixel_pitch_mm;
+  const double focal_px = first_order(lens, lens.design_wavelength_nm).focal_length_mm / request.frame.pixel_pitch_mm;
   const Vec2 middle{0.5 * request.frame.width, 0.5 * request.frame.height};
   std::map<std::pair<int, int>, std::vector<SeenDisc>> seen;
   for (int k = 1; k <= kAngles; ++k) {
@@ -77,8 +76,8 @@ Result<std::vector<FoundGhost>> discs_of_lens(const LensState& lens, double larg
     for (const GhostFigures& figure : *figures) {
       const double radius = 0.5 * figure.size_px.y, centre = figure.centroid_px.x - middle.x;
       if (!(figure.relative_flux > 0.0) || std::abs(centre) > middle.x + radius) continue;
-      seen[{figure.ghost.i, figure.ghost.j}].push_back({s, centre / focal_px, radius / focal_px,
-                                                        figure.peak_irradiance});
+      seen[{figure.ghost.i, figure.ghost.j}].push_back(
+          {s, centre / focal_px, radius / focal_px, figure.peak_irradiance});
     }
   }
   std::vector<std::pair<double, FoundGhost>> ranked;
