@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time frames on a device against the CPU: a table for docs/gpu.md, on any machine.
 
-    gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...]
+    gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...] [--method NAME ...]
 
 Each row is a lens and a method: the median time of a frame on the CPU and on the device, their ratio, the device's part
 of its frame, and the difference of the pictures in dB. A frame is timed after one of the same sequence has warmed the
@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 LENSES = ["heliar", "canon-70-200", "nikon-80-200"]
-METHODS = ["bundle", "tiled"]
+METHODS = ["bundle", "tiled"]  # of the target; `adaptive` may be asked for
 
 
 def run(program, arguments):
@@ -59,6 +59,7 @@ def main():
     parser.add_argument("--wavelengths", type=int, default=3)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--lens", nargs="*", default=LENSES)
+    parser.add_argument("--method", nargs="*", default=METHODS)
     options = parser.parse_args()
     devices = json.loads(run(options.program, ["devices", "--json"]))
     usable = [f"{device['name']} ({device['driver']})" for device in devices if device["usable"]]
@@ -67,7 +68,7 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for lens in options.lens:
-            for method in METHODS:
+            for method in options.method:
                 print(row(options, lens, method, pathlib.Path(folder)), flush=True)
 
 

@@ -70,16 +70,17 @@ std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
 AdaptiveFrame::AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
                              StarburstStage& starbursts)
     : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity), starbursts_(starbursts) {
-  for (const Need& need : needs()) *need.capacity = std::min(*need.capacity, info_.storage_range_bytes / need.bytes);
+  for (const Need& need : needs()) *need.capacity = std::min(*need.capacity, device_.most_of(need.slot, need.bytes));
 }
 
 std::array<AdaptiveFrame::Need, 5> AdaptiveFrame::needs() const {
   return {{
-      {&capacity_.rays, std::max(kRayBytes, kCrossingBytes), std::uint64_t{kRaysABlock} * counters_[kRayBlocks]},
-      {&capacity_.polygons, kLargeBytes, counters_[kPolygonsListed]},
-      {&capacity_.corners, kCornerBytes, counters_[kCornersListed]},
-      {&capacity_.cut_cells, kCutBytes, counters_[kCutCells]},
-      {&capacity_.tile_entries, sizeof(std::uint32_t), counters_[kMostTileEntries]},
+      {Slot::Crossings, &capacity_.rays, std::max(kRayBytes, kCrossingBytes),
+       std::uint64_t{kRaysABlock} * counters_[kRayBlocks]},
+      {Slot::Large, &capacity_.polygons, kLargeBytes, counters_[kPolygonsListed]},
+      {Slot::LargeCorners, &capacity_.corners, kCornerBytes, counters_[kCornersListed]},
+      {Slot::CutCells, &capacity_.cut_cells, kCutBytes, counters_[kCutCells]},
+      {Slot::TileLists, &capacity_.tile_entries, sizeof(std::uint32_t), counters_[kMostTileEntries]},
   }};
 }
 
@@ -179,7 +180,7 @@ std::uint32_t AdaptiveFrame::list_part() const {
 
 // The histogram, then the sums of the tiles that are drawn in parts.
 std::uint64_t AdaptiveFrame::sums_bytes() const {
-  return kHistogramBytes + lists_.most_split_tiles() * kRasterTile * kRasterTile * kSumBytes;
+  return kHistogramBytes + lists_.most_split_tiles() * kRasterTile * kRasterTile * 3 * kSumBytes;
 }
 
 void AdaptiveFrame::need_buffers() {
@@ -324,7 +325,7 @@ bool AdaptiveFrame::grow() {
     throw std::runtime_error("its driver ended a loop over the polygons of a tile early");
   bool fits = true;
   for (const Need& need : needs()) {
-    const std::uint64_t most = info_.storage_range_bytes / need.bytes;
+    const std::uint64_t most = device_.most_of(need.slot, need.bytes);
     if (need.counted > *need.capacity) *need.capacity = std::min(need.counted + need.counted / 4, most);
     fits = fits && need.counted <= most;
   }

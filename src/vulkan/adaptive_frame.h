@@ -51,6 +51,7 @@ class AdaptiveFrame {
  private:
   // How many of something a buffer can hold, the bytes of each, and how many the last try counted.
   struct Need {
+    Slot slot;
     std::uint64_t* capacity;
     std::uint64_t bytes, counted;
   };

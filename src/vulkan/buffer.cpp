@@ -45,8 +45,8 @@ bool Buffer::need(const vk::raii::Device& device, const vk::PhysicalDeviceMemory
   memory_ = nullptr;
   bytes_ = 0;
   using Usage = vk::BufferUsageFlagBits;
-  const vk::BufferUsageFlags usage =
-      Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst | Usage::eIndirectBuffer;
+  const vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eUniformTexelBuffer |
+                                     Usage::eTransferSrc | Usage::eTransferDst | Usage::eIndirectBuffer;
   buffer_ = vk::raii::Buffer(device, vk::BufferCreateInfo({}, bytes, usage));
   const vk::MemoryRequirements required = buffer_.getMemoryRequirements();
   const std::uint32_t type = memory_type(memory, required.memoryTypeBits, residence_);

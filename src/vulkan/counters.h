@@ -32,7 +32,7 @@ enum Overflow : std::uint32_t {
 };
 
 // Bytes of Slot::Indirect.
-inline constexpr std::uint64_t kIndirectRays = 0, kIndirectCut = 12, kIndirectPolygons = 24, kIndirectWide = 36,
-                               kIndirectTiles = 48, kIndirectBytes = 60;
+inline constexpr std::uint64_t kIndirectRays = 0, kIndirectOpen = 0, kIndirectCut = 12, kIndirectPolygons = 24,
+                               kIndirectWide = 36, kIndirectTiles = 48, kIndirectBytes = 60;
 
 }  // namespace contrejour::inline internal::vulkan

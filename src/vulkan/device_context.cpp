@@ -33,6 +33,7 @@ constexpr double kNanoseconds = 1e9;  // a second
 constexpr std::uint64_t kInvocationsAGroup = 64;
 constexpr std::uint32_t kMostStages = 256;
 constexpr std::uint32_t kGeometryConstant = 0;  // the number of GEOMETRY in shaders/trace.glsl
+constexpr std::uint32_t kInterpolationConstant = 2;  // that of INTERPOLATION in shaders/primitive.glsl
 constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders/adaptive/common.glsl
 
 }  // namespace
@@ -64,13 +65,23 @@ void DeviceContext::make_layouts() {
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (std::uint32_t k = 0; k < kSlots; ++k)
     bindings.emplace_back(k, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+  for (std::uint32_t k = kSlots; k < kSlots + kTexelSlots.size(); ++k)
+    bindings.emplace_back(k, vk::DescriptorType::eUniformTexelBuffer, 1, vk::ShaderStageFlagBits::eCompute);
   set_layout_ = device_.createDescriptorSetLayout(vk::DescriptorSetLayoutCreateInfo({}, bindings));
+  bindings.clear();
+  for (std::uint32_t k = 0; k < kPathSlots.size(); ++k)
+    bindings.emplace_back(k, vk::DescriptorType::eUniformBufferDynamic, 1, vk::ShaderStageFlagBits::eCompute);
+  path_layout_ = device_.createDescriptorSetLayout(vk::DescriptorSetLayoutCreateInfo({}, bindings));
+  const std::array layouts{*set_layout_, *path_layout_};
   const vk::PushConstantRange pushed(vk::ShaderStageFlagBits::eCompute, 0, kPushedBytes);
-  pipeline_layout_ = device_.createPipelineLayout(vk::PipelineLayoutCreateInfo({}, *set_layout_, pushed));
-  const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, kSlots);
+  pipeline_layout_ = device_.createPipelineLayout(vk::PipelineLayoutCreateInfo({}, layouts, pushed));
+  using Type = vk::DescriptorType;
+  const std::array sizes{vk::DescriptorPoolSize(Type::eStorageBuffer, kSlots),
+                         vk::DescriptorPoolSize(Type::eUniformTexelBuffer, kTexelSlots.size()),
+                         vk::DescriptorPoolSize(Type::eUniformBufferDynamic, kPathSlots.size())};
   descriptor_pool_ = device_.createDescriptorPool(
-      vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
-  sets_ = vk::raii::DescriptorSets(device_, {*descriptor_pool_, *set_layout_});
+      vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 2, sizes));
+  sets_ = vk::raii::DescriptorSets(device_, vk::DescriptorSetAllocateInfo(*descriptor_pool_, layouts));
 }
 
 void DeviceContext::read_pipelines() {
@@ -85,18 +96,28 @@ vk::Pipeline DeviceContext::pipeline_of(Program program) {
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
-  const std::array<std::uint32_t, 2> values{static_cast<std::uint32_t>(program.geometry),
-                                            program.has_picture ? VK_TRUE : VK_FALSE};
+  const std::array<std::uint32_t, 3> values{static_cast<std::uint32_t>(program.geometry),
+                                            program.has_picture ? VK_TRUE : VK_FALSE,
+                                            static_cast<std::uint32_t>(program.interpolation)};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
-                           vk::SpecializationMapEntry(kPictureConstant, kSize, kSize)};
+                           vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),
+                           vk::SpecializationMapEntry(kInterpolationConstant, 2 * kSize, kSize)};
   const vk::SpecializationInfo constants(entries.size(), entries.data(), sizeof values, values.data());
   const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &constants);
   pipeline = device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
   return *pipeline;
 }
 
+std::uint64_t DeviceContext::most_of(Slot slot, std::uint64_t bytes_an_item) const {
+  std::uint64_t most = info_.storage_range_bytes;
+  for (const TexelSlot& texels : kTexelSlots)
+    if (texels.slot == slot)
+      most = std::min<std::uint64_t>(most, std::uint64_t{properties_.limits.maxTexelBufferElements} * texels.bytes);
+  return most / bytes_an_item;
+}
+
 void DeviceContext::need(Slot slot, std::uint64_t bytes) {
-  if (bytes > info_.storage_range_bytes)
+  if (bytes > most_of(slot, 1))
     throw vk::OutOfDeviceMemoryError(fmt::format("a buffer of {} bytes is beyond the device's limit", bytes));
   if (at(slot).need(device_, memory_, bytes)) described_ = false;
 }
@@ -104,6 +125,7 @@ void DeviceContext::need(Slot slot, std::uint64_t bytes) {
 void DeviceContext::need_fetched(std::uint64_t bytes) { fetched_.need(device_, memory_, bytes); }
 
 void DeviceContext::describe_buffers() {
+  for (const Slot slot : kPathSlots) need(slot, kPathRange);
   std::vector<vk::DescriptorBufferInfo> infos;
   for (std::size_t k = 0; k < kSlots; ++k) {
     need(static_cast<Slot>(k), 1);
@@ -113,7 +135,28 @@ void DeviceContext::describe_buffers() {
   for (std::uint32_t k = 0; k < kSlots; ++k)
     writes.emplace_back(*sets_.front(), k, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &infos[k]);
   device_.updateDescriptorSets(writes, {});
+  describe_texels();
+  std::uint32_t binding = 0;
+  for (const Slot slot : kPathSlots) {
+    const vk::DescriptorBufferInfo info(at(slot).handle(), 0, kPathRange);
+    device_.updateDescriptorSets(
+        vk::WriteDescriptorSet(*sets_.back(), binding++, 0, vk::DescriptorType::eUniformBufferDynamic, {}, info), {});
+  }
   described_ = true;
+}
+
+void DeviceContext::describe_texels() {
+  views_.clear();
+  std::uint32_t binding = kSlots;
+  for (const TexelSlot& texels : kTexelSlots) {
+    const std::uint64_t count =
+        std::min<std::uint64_t>(at(texels.slot).bytes() / texels.bytes, properties_.limits.maxTexelBufferElements);
+    const vk::BufferViewCreateInfo create({}, at(texels.slot).handle(), texels.format, 0, count * texels.bytes);
+    const vk::BufferView view = *views_.emplace_back(device_, create);
+    device_.updateDescriptorSets(
+        vk::WriteDescriptorSet(*sets_.front(), binding++, 0, vk::DescriptorType::eUniformTexelBuffer, {}, {}, view),
+        {});
+  }
 }
 
 void DeviceContext::begin() {
@@ -122,10 +165,16 @@ void DeviceContext::begin() {
   commands.reset();
   commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 0, *sets_.front(), {});
+  set_path({});
   stages_.clear();
   if (*clock_ == vk::QueryPool{}) return;
   commands.resetQueryPool(*clock_, 0, kMostStages + 1);
   commands.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, *clock_, 0);
+}
+
+void DeviceContext::set_path(const std::array<std::uint32_t, kPathSlots.size()>& first_bytes) {
+  commands_.front().bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline_layout_, 1, *sets_.back(),
+                                       first_bytes);
 }
 
 void DeviceContext::end_stage(std::string name) {

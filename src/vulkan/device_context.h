@@ -62,6 +62,24 @@ enum class Slot : std::uint8_t {
   Starbursts,
 };
 inline constexpr std::size_t kSlots = 31;
+
+// Slots that shaders also read as texels; their bindings follow the slots'.
+struct TexelSlot {
+  Slot slot;
+  vk::Format format;
+  std::uint32_t bytes;  // of a texel
+};
+inline constexpr std::array kTexelSlots{TexelSlot{Slot::Tables, vk::Format::eR32G32Sfloat, 8},
+                                        TexelSlot{Slot::Rays, vk::Format::eR32G32B32A32Sfloat, 16},
+                                        TexelSlot{Slot::Crossings, vk::Format::eR32G32Sfloat, 8},
+                                        TexelSlot{Slot::Vertices, vk::Format::eR32G32Sfloat, 8},
+                                        TexelSlot{Slot::Bounds, vk::Format::eR32G32B32A32Sfloat, 16},
+                                        TexelSlot{Slot::Large, vk::Format::eR32G32B32A32Uint, 16},
+                                        TexelSlot{Slot::LargeCorners, vk::Format::eR32G32Sfloat, 8},
+                                        TexelSlot{Slot::TileLists, vk::Format::eR32Uint, 4},
+                                        TexelSlot{Slot::Blocks, vk::Format::eR32Sfloat, 4}};
+// Slots that trace.comp reads as uniform buffers, from a grid's path on.
+inline constexpr std::array kPathSlots{Slot::Floats, Slot::Doubles, Slot::Integers};
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {
@@ -85,6 +103,8 @@ class DeviceContext {
   DeviceContext& operator=(const DeviceContext&) = delete;
 
   [[nodiscard]] Buffer& at(Slot slot) { return buffers_[static_cast<std::size_t>(slot)]; }
+  // The most items of a size that a slot's buffer holds, and that shaders reach where they read it as texels.
+  [[nodiscard]] std::uint64_t most_of(Slot slot, std::uint64_t bytes_an_item) const;
   // Makes a buffer large enough, and takes part in no submission meanwhile.
   void need(Slot slot, std::uint64_t bytes);
   void need_fetched(std::uint64_t bytes);  // what fetch() may copy in one submission
@@ -110,6 +130,8 @@ class DeviceContext {
     commands_.front().dispatch(groups.x, groups.y, 1);
     invocations_ += kGroup * groups.x * groups.y;
   }
+  // The path of the next dispatches that trace a grid: the first bytes of kPathSlots.
+  void set_path(const std::array<std::uint32_t, kPathSlots.size()>& first_bytes);
   // The group counts are the device's: three words of Slot::Indirect, from this byte on.
   template <class P>
   void dispatch_indirect(Program program, const P& parameters, std::uint64_t byte) {
@@ -147,6 +169,7 @@ class DeviceContext {
   void read_pipelines();
   [[nodiscard]] vk::Pipeline pipeline_of(Program program);
   void describe_buffers();
+  void describe_texels();
   void read_clock();
   void submit(const QueueSemaphores& semaphores);
   template <class P>
@@ -165,12 +188,12 @@ class DeviceContext {
   QueuedDevice queued_;
   const vk::raii::Device& device_ = queued_.device.object;
   const vk::raii::Queue& queue_ = queued_.queue;
-  vk::raii::DescriptorSetLayout set_layout_ = nullptr;
+  vk::raii::DescriptorSetLayout set_layout_ = nullptr, path_layout_ = nullptr;
   vk::raii::PipelineLayout pipeline_layout_ = nullptr;
   vk::raii::PipelineCache cache_ = nullptr;
   std::vector<vk::raii::Pipeline> pipelines_;  // by program; null until it is used
   vk::raii::DescriptorPool descriptor_pool_ = nullptr;
-  std::vector<vk::raii::DescriptorSet> sets_;  // one
+  std::vector<vk::raii::DescriptorSet> sets_;  // that of all buffers, and that of the path
   vk::raii::CommandPool command_pool_ = nullptr;
   std::vector<vk::raii::CommandBuffer> commands_;  // one
   vk::raii::Fence fence_ = nullptr;
@@ -179,6 +202,7 @@ class DeviceContext {
   std::vector<std::string> stages_;  // of the submission that is being made
   std::vector<std::pair<std::string, double>> stages_ms_;
   std::vector<Buffer> buffers_;  // by Slot
+  std::vector<vk::raii::BufferView> views_;  // by kTexelSlots
   Buffer fetched_{Residence::Download}, kept_rows_{Residence::Device}, sent_rows_{Residence::Upload};
   bool described_ = false;
   std::uint64_t submissions_ = 0, invocations_ = 0;

@@ -4,29 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace contrejour::inline internal::vulkan {
 namespace {
 
+// The pixels of a polygon's bounds from which on tiles draw it. On GPUs an invocation with more to draw than others
+// would keep them waiting; on processors, where lists cost more than that, only the largest are worth it.
+constexpr std::int32_t kLarge = 64, kLargeOnProcessor = 4096;
 constexpr std::int32_t kTile = 8;  // the workgroups of large_cells.comp and large_primitives.comp
 // The sums hold 63 bits: an estimate of the light of all grids in one pixel takes this many, and the rest is for
 // grazing rays, which may be brighter than estimated, and for single values of tiny cells.
 constexpr double kFixedPoint = 0x1p50;
 
-// An estimate of the light that all grids bring to a pixel at most.
+// An estimate of the light that all grids bring to a pixel at most, without their gains.
 double most_light(std::span<const DeviceGrid> grids) {
   double sum = 0.0;
   for (const DeviceGrid& grid : grids) {
     const double area = static_cast<double>(ray_count(grid)) * std::abs(grid.step_mm.x * grid.step_mm.y);
-    float gain = 0.0F;
-    for (const float channel : grid.gain) gain = std::max(gain, std::abs(channel));
-    double light = area * grid.irradiance * gain;
+    double light = area * grid.irradiance;
     for (const PacketStep& step : grid.path.steps())
       if (step.event == PathEvent::Reflect) light *= largest_reflectance(grid.path.tables() + step.reflectance);
     sum += light;
   }
   return sum;
 }
+
+bool is_obscured(const DeviceGrid& grid) { return std::ranges::any_of(grid.path.steps(), &PacketStep::blocks_within); }
 
 // The blocks of 1, 2 x 2, 4 x 4 ... cells of a grid, one level after the other in memory.
 class BlockLevels {
@@ -56,22 +60,56 @@ std::uint64_t ray_count(const DeviceGrid& grid) {
   return static_cast<std::uint64_t>(grid.side) * static_cast<std::uint64_t>(grid.side);
 }
 
+// A grid's path lies in a buffer from its place on, as far as a uniform buffer reaches.
+void upload_paths(DeviceContext& device, const PathData& data) {
+  device.need(Slot::Floats, data.floats().size() * sizeof(float) + kPathRange);
+  device.need(Slot::Doubles, data.doubles().size() * sizeof(double) + kPathRange);
+  device.need(Slot::Integers, data.integers().size() * sizeof(std::int32_t) + kPathRange);
+  device.write_first(Slot::Floats, data.floats());
+  device.write_first(Slot::Doubles, data.doubles());
+  device.write_first(Slot::Integers, data.integers());
+  // Each value with the next, as rays interpolate between them.
+  std::vector<float> pairs;
+  pairs.reserve(2 * data.tables().size());
+  for (std::size_t k = 0; k < data.tables().size(); ++k) {
+    pairs.push_back(data.tables()[k]);
+    pairs.push_back(data.tables()[std::min(k + 1, data.tables().size() - 1)]);
+  }
+  device.upload(Slot::Tables, pairs);
+}
+
+void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceGrid& grid, const PathPlace& place,
+                    const Parameters& parameters) {
+  const bool in_double = grid.precision == PacketPrecision::Double;
+  const auto bytes = [](std::uint32_t numbers, std::size_t size) { return numbers * static_cast<std::uint32_t>(size); };
+  device.set_path({in_double ? 0 : bytes(place.reals_at, sizeof(float)),
+                   in_double ? bytes(place.reals_at, sizeof(double)) : 0,
+                   bytes(place.integers_at, sizeof(std::int32_t))});
+  device.dispatch({in_double ? Shader::TraceDouble : Shader::TraceFloat, grid.path.geometry()}, parameters,
+                  groups_of(ray_count(grid), info));
+}
+
 GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
                      GridKept& kept, StarburstStage& starbursts)
     : device_(device), info_(info), job_(job), limits_(limits), kept_(kept), starbursts_(starbursts) {
+  for (const DeviceGrid& grid : job.grids) grids_in_order_.push_back(&grid);
+  std::ranges::stable_sort(grids_in_order_, {}, [](const DeviceGrid* grid) {
+    return std::tuple(grid->gain, grid->side, grid->path.stop_crossings(), is_obscured(*grid));
+  });
   const double most = most_light(job.grids);
   if (most > 0.0) fixed_point_ = kFixedPoint / most;
-  const std::uint64_t range = info.storage_range_bytes;
-  kept_.tile_entries = std::min(kept_.tile_entries, range / sizeof(std::uint32_t));
-  limits_.rays = std::min(limits_.rays, range / std::max(kRayBytes, kCrossingBytes));
-  limits_.large_polygons =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_polygons, range / kLargeBytes));
-  limits_.large_corners =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits_.large_corners, range / kCornerBytes));
+  kept_.tile_entries = std::min(kept_.tile_entries, device.most_of(Slot::TileLists, sizeof(std::uint32_t)));
+  limits_.rays = std::min({limits_.rays, device.most_of(Slot::Crossings, kCrossingBytes),
+                           device.most_of(Slot::CutCells, 2 * kCutRecordBytes)});
+  const auto within = [&](std::uint32_t limit, Slot slot, std::uint64_t bytes) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(limit, device.most_of(slot, bytes)));
+  };
+  limits_.large_polygons = within(limits_.large_polygons, Slot::Large, kLargeBytes);
+  limits_.large_corners = within(limits_.large_corners, Slot::LargeCorners, kCornerBytes);
 }
 
 int GridFrame::rows_a_band() const {
-  const std::uint64_t row_bytes = kSumBytes * static_cast<std::uint64_t>(job_.frame.width);
+  const std::uint64_t row_bytes = std::max(kSumBytes, kPixelBytes) * static_cast<std::uint64_t>(job_.frame.width);
   const int fitting = static_cast<int>(std::clamp<std::uint64_t>(info_.storage_range_bytes / row_bytes, 1,
                                                                  static_cast<std::uint64_t>(job_.frame.height)));
   return kept_.most_rows > 0 ? std::min(fitting, kept_.most_rows) : fitting;
@@ -81,9 +119,7 @@ bool GridFrame::keeps_bands() const { return job_.use == PictureUse::Kept && row
 
 std::uint32_t GridFrame::style_flags() const {
   std::uint32_t flags = job_.iris.is_circle() ? kCircle : 0U;
-  if (const auto* const tiled = std::get_if<TiledOptions>(&job_.style))
-    flags |= static_cast<std::uint32_t>(tiled->interpolation) << kMethodShift;
-  else if (std::get<BundleOptions>(job_.style).smooth_shading)
+  if (const auto* const bundle = std::get_if<BundleOptions>(&job_.style); bundle != nullptr && bundle->smooth_shading)
     flags |= kSmooth;
   return flags;
 }
@@ -91,105 +127,121 @@ std::uint32_t GridFrame::style_flags() const {
 // Uploads the grids for a band of the frame, and sets the parameters of their dispatches.
 void GridFrame::prepare(const Frame& band) {
   PathData data;
-  grids_.assign(job_.grids.size(), {});
-  blocks_at_.assign(job_.grids.size(), 0);
+  grids_.assign(grids_in_order_.size(), {});
+  places_.assign(grids_in_order_.size(), {});
   const auto* const tiled = std::get_if<TiledOptions>(&job_.style);
   const std::vector<float> bounds = bound_numbers(job_.iris);
-  for (std::size_t k = 0; k < job_.grids.size(); ++k) {
-    const DeviceGrid& grid = job_.grids[k];
+  const std::int32_t fitting = info_.kind == "processor" ? kLargeOnProcessor : kLarge;
+  const std::int32_t large_pixels = kept_.large_pixels > 0 ? kept_.large_pixels : fitting;
+  for (std::size_t k = 0; k < grids_in_order_.size(); ++k) {
+    const DeviceGrid& grid = *grids_in_order_[k];
     Parameters& p = grids_[k];
-    data.add(grid, pixel_map(band, grid.shift_mm), p);
+    places_[k] = data.add(grid, pixel_map(band, grid.shift_mm), p);
     p.side = static_cast<std::uint32_t>(grid.side);
     p.bound_count = static_cast<std::uint32_t>(bounds.size() / 8);
-    const bool obscured = std::ranges::any_of(grid.path.steps(), &PacketStep::blocks_within);
-    p.flags = style_flags() | (obscured ? kObscured : 0U);
+    p.flags = style_flags() | (is_obscured(grid) ? kObscured : 0U);
     if (tiled != nullptr) p.merge_threshold = static_cast<float>(tiled->merge_threshold * 0.5 * band.full_width);
     p.width = band.width;
     p.height = band.height;
-    p.triangle_weight = static_cast<float>(0.5 * std::abs(grid.step_mm.x * grid.step_mm.y) * grid.irradiance);
-    for (std::size_t c = 0; c < 3; ++c) p.gain[c] = static_cast<float>(grid.gain[c] * fixed_point_);
+    p.triangle_weight =
+        static_cast<float>(0.5 * std::abs(grid.step_mm.x * grid.step_mm.y) * grid.irradiance * fixed_point_);
     p.large_capacity = limits_.large_polygons;
+    p.primitive_capacity = primitive_capacity_;
+    p.large_pixels = large_pixels;
     p.corner_capacity = limits_.large_corners;
   }
-  device_.upload(Slot::Floats, data.floats());
-  device_.upload(Slot::Doubles, data.doubles());
-  device_.upload(Slot::Integers, data.integers());
-  device_.upload(Slot::Tables, data.tables());
+  upload_paths(device_, data);
   device_.upload(Slot::Bounds, bounds);
-  work_.uploaded_bytes += 4 * (data.floats().size() + data.integers().size() + data.tables().size() + bounds.size()) +
-                          8 * data.doubles().size();
+  work_.uploaded_bytes +=
+      4 * (data.floats().size() + data.integers().size() + 2 * data.tables().size() + bounds.size()) +
+      8 * data.doubles().size();
 }
 
 void GridFrame::trace(std::size_t first, std::size_t end) {
   std::uint64_t ray = 0;
   for (std::size_t k = first; k < end; ++k) {
     grids_[k].first_ray = static_cast<std::uint32_t>(ray);
-    const bool in_double = job_.grids[k].precision == PacketPrecision::Double;
-    device_.dispatch({in_double ? Shader::TraceDouble : Shader::TraceFloat, job_.grids[k].path.geometry()}, grids_[k],
-                     groups_of(ray_count(job_.grids[k]), info_));
-    ray += ray_count(job_.grids[k]);
+    dispatch_trace(device_, info_, *grids_in_order_[k], places_[k], grids_[k]);
+    ray += ray_count(*grids_in_order_[k]);
   }
   work_.rays += ray;
 }
 
-void GridFrame::draw_large(Shader shader, std::size_t any) {
+// Draws what earlier shaders have listed: what is open, if that was listed, what is cut, and what is large.
+void GridFrame::draw_listed(std::optional<Program> open, Program cut, Program large, std::size_t any) {
+  TileLists sizes = lists_;
+  sizes.level = 3;
+  device_.barrier();
+  device_.dispatch(Shader::ListSizes, sizes, {1, 1});
   device_.barrier();
   device_.end_stage("cells");
+  if (open) device_.dispatch_indirect(*open, grids_[any], kIndirectOpen);
+  device_.dispatch_indirect(cut, grids_[any], kIndirectCut);
+  device_.barrier();
+  device_.end_stage("cut cells");
   fill_lists(device_, info_, lists_);
   device_.end_stage("tile lists");
-  device_.dispatch_indirect(shader, grids_[any], kIndirectTiles);
+  device_.dispatch_indirect(large, grids_[any], kIndirectTiles);
 }
 
-void GridFrame::share_vertices(std::size_t first, std::size_t end) {
-  for (std::size_t k = first; k < end; ++k)
-    device_.dispatch(Shader::Vertices, grids_[k], groups_of(ray_count(job_.grids[k]), info_));
-  device_.barrier();
-  device_.end_stage("vertices");
+// A dispatch serves all grids that follow each other and have the same parameters, since each has its cost: on lavapipe
+// that of some dozens of rays.
+std::vector<Parameters> GridFrame::runs_of(std::size_t first, std::size_t end) const {
+  std::vector<Parameters> runs;
+  for (std::size_t k = first; k < end; ++k) {
+    const Parameters& grid = grids_[k];
+    const auto has_same = [&](const Parameters& run) {
+      return run.side == grid.side && run.crossing_count == grid.crossing_count && run.flags == grid.flags;
+    };
+    if (runs.empty() || !has_same(runs.back()))
+      runs.push_back(grid);
+    else
+      ++runs.back().grid_count;
+  }
+  return runs;
+}
+
+void GridFrame::dispatch_runs(Shader shader, std::span<const Parameters> runs, std::uint32_t less) {
+  for (const Parameters& run : runs) {
+    const std::uint64_t side = run.side - less;
+    device_.dispatch(shader, run, groups_of(run.grid_count * side * side, info_));
+  }
 }
 
 void GridFrame::draw_cells(std::size_t first, std::size_t end) {
-  share_vertices(first, end);
-  for (std::size_t k = first; k < end; ++k) {
-    const std::uint64_t cells = grids_[k].side - 1;
-    device_.dispatch(Shader::Cells, grids_[k], groups_of(cells * cells, info_));
-  }
-  draw_large(Shader::LargeCells, first);
+  const std::vector<Parameters> runs = runs_of(first, end);
+  dispatch_runs(Shader::Vertices, runs, 0);
+  device_.barrier();
+  device_.end_stage("vertices");
+  dispatch_runs(Shader::Cells, runs, 1);
+  draw_listed({}, Shader::CutCells, Shader::LargeCells, first);
 }
 
 // Finds level by level which blocks of cells are whole.
-void GridFrame::merge(std::size_t first, std::size_t end) {
+void GridFrame::merge(std::span<const Parameters> runs) {
   const int steps = std::get<TiledOptions>(job_.style).merge_steps;
   for (int level = 0; level <= steps; ++level) {
-    for (std::size_t k = first; k < end; ++k) {
-      const BlockLevels levels(grids_[k].side - 1, blocks_at_[k]);
+    for (Parameters p : runs) {
+      const BlockLevels levels(p.side - 1, p.blocks_at);
       if (levels.side(level) == 0) continue;
-      Parameters p = grids_[k];
       p.level = static_cast<std::uint32_t>(level);
       p.level_side = levels.side(level);
       p.blocks_at = levels.at(level);
       p.finer_side = level > 0 ? levels.side(level - 1) : 0;
       p.finer_at = level > 0 ? levels.at(level - 1) : 0;
-      device_.dispatch(Shader::Blocks, p, groups_of(std::uint64_t{p.level_side} * p.level_side, info_));
+      device_.dispatch(level == 0 ? Shader::Blocks : Shader::MergedBlocks, p,
+                       groups_of(std::uint64_t{p.grid_count} * p.level_side * p.level_side, info_));
     }
     device_.barrier();
   }
 }
 
-void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
-  std::uint32_t blocks = 0;
-  for (std::size_t k = first; k < end; ++k) {
-    device_.dispatch(Shader::Widen, grids_[k], {1, 1});
-    blocks_at_[k] = blocks;
-    blocks += BlockLevels(grids_[k].side - 1, 0).count();
-  }
-  device_.barrier();
-  share_vertices(first, end);
-  merge(first, end);
+void GridFrame::list_primitives(std::span<const Parameters> runs) {
   const int steps = std::get<TiledOptions>(job_.style).merge_steps;
-  for (std::size_t k = first; k < end; ++k) {
-    const BlockLevels levels(grids_[k].side - 1, blocks_at_[k]);
+  for (const Parameters& run : runs) {
+    const BlockLevels levels(run.side - 1, run.blocks_at);
     for (int level = 0; level <= steps && levels.side(level) > 0; ++level) {
-      Parameters p = grids_[k];
+      Parameters p = run;
       p.level = static_cast<std::uint32_t>(level);
       p.level_side = levels.side(level);
       p.blocks_at = levels.at(level);
@@ -197,14 +249,36 @@ void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
       p.flags |= is_last ? kLastLevel : 0U;
       p.finer_side = is_last ? 0 : levels.side(level + 1);
       p.finer_at = is_last ? 0 : levels.at(level + 1);
-      device_.dispatch(Shader::Primitives, p, groups_of(std::uint64_t{p.level_side} * p.level_side, info_));
+      device_.dispatch(Shader::Primitives, p,
+                       groups_of(std::uint64_t{p.grid_count} * p.level_side * p.level_side, info_));
     }
   }
-  draw_large(Shader::LargePrimitives, first);
+}
+
+void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
+  std::vector<Parameters> runs = runs_of(first, end);
+  std::uint32_t blocks = 0;
+  for (Parameters& run : runs) {
+    run.blocks_at = blocks;
+    run.block_stride = BlockLevels(run.side - 1, 0).count();
+    blocks += run.grid_count * run.block_stride;
+    device_.dispatch(Shader::Widen, run, groups_of(64 * std::uint64_t{run.grid_count}, info_));
+  }
+  device_.barrier();
+  dispatch_runs(Shader::Vertices, runs, 0);
+  device_.barrier();
+  device_.end_stage("vertices");
+  merge(runs);
+  device_.end_stage("blocks");
+  list_primitives(runs);
+  const auto method = std::get<TiledOptions>(job_.style).interpolation;
+  draw_listed(Program(Shader::OpenPrimitives, method), {Shader::CutPrimitives, method},
+              {Shader::LargePrimitives, method}, first);
 }
 
 void GridFrame::draw_batch(std::size_t first, std::size_t end) {
   device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kOverflows);  // those of a batch come first
+  device_.clear(Slot::Counters, sizeof(std::uint32_t) * kCutCells, 2 * sizeof(std::uint32_t));
   clear_lists(device_, lists_);
   device_.barrier();
   trace(first, end);
@@ -218,15 +292,22 @@ void GridFrame::draw_batch(std::size_t first, std::size_t end) {
   device_.end_stage("tiles");
 }
 
-void GridFrame::resolve(const Band& band, Image& image) {
-  const auto values = 3 * static_cast<std::uint64_t>(band.frame.width) * static_cast<std::uint64_t>(band.frame.height);
+// Adds the light of grids, which have the same gains, to the picture.
+void GridFrame::resolve(const Frame& band, const DeviceGrid& any, bool is_first) {
   Parameters p;
-  p.width = band.frame.width;
-  p.height = band.frame.height;
-  p.gain[0] = static_cast<float>(1.0 / fixed_point_);
-  device_.dispatch(Shader::Resolve, p, groups_of(values, info_));
+  p.width = band.width;
+  p.height = band.height;
+  p.flags = is_first ? kFirst : 0U;
+  for (std::size_t c = 0; c < 3; ++c) p.gain[c] = static_cast<float>(any.gain[c] / fixed_point_);
+  device_.dispatch(Shader::Resolve, p,
+                   groups_of(static_cast<std::uint64_t>(p.width) * static_cast<std::uint64_t>(p.height), info_));
   device_.barrier();
-  starbursts_.draw(p.width, p.height, band.first_row);
+  device_.end_stage("sums");
+}
+
+void GridFrame::read(const Band& band, Image& image) {
+  const auto values = 3 * static_cast<std::uint64_t>(band.frame.width) * static_cast<std::uint64_t>(band.frame.height);
+  starbursts_.draw(band.frame.width, band.frame.height, band.first_row);
   if (job_.use == PictureUse::Read) device_.fetch(Slot::Picture, sizeof(float) * values);
   if (keeps_bands())
     device_.keep(
@@ -242,7 +323,6 @@ void GridFrame::resolve(const Band& band, Image& image) {
 }
 
 bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context) {
-  prepare(band.frame);
   const auto pixels = static_cast<std::uint64_t>(band.frame.width) * static_cast<std::uint64_t>(band.frame.height);
   device_.need(Slot::Sums, kSumBytes * pixels);
   device_.need(Slot::Picture, kPixelBytes * pixels);
@@ -260,32 +340,44 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   device_.need(Slot::Rays, kRayBytes * most_rays);
   device_.need(Slot::Crossings, kCrossingBytes * most_rays);
   device_.need(Slot::Vertices, kVertexBytes * most_rays);
-  if (std::holds_alternative<TiledOptions>(job_.style)) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
+  const bool is_tiled = std::holds_alternative<TiledOptions>(job_.style);
+  primitive_capacity_ = static_cast<std::uint32_t>(is_tiled ? 2 * most_rays : most_rays);
+  device_.need(Slot::CutCells, kCutRecordBytes * primitive_capacity_);
+  if (is_tiled) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
+  prepare(band.frame);
 
   device_.begin();
   device_.clear(Slot::Sums, 0, kSumBytes * pixels);
   device_.clear(Slot::Counters, 0, sizeof(std::uint32_t) * kCounters);
   device_.barrier();
   std::uint64_t submitted = 0;
-  for (std::size_t first = 0, end = 0; first < job_.grids.size(); first = end) {
+  bool is_dark = true;  // nothing is in the picture yet
+  for (std::size_t first = 0, end = 0; first < grids_in_order_.size(); first = end) {
     std::uint64_t rays = 0;
-    for (; end < job_.grids.size() && (end == first || rays + ray_count(job_.grids[end]) <= batch_rays); ++end)
-      rays += ray_count(job_.grids[end]);
+    const auto& gain = grids_in_order_[first]->gain;
+    const auto has_gain = [&](std::size_t k) { return k < grids_in_order_.size() && grids_in_order_[k]->gain == gain; };
+    for (; has_gain(end) && (end == first || rays + ray_count(*grids_in_order_[end]) <= batch_rays); ++end)
+      rays += ray_count(*grids_in_order_[end]);
     draw_batch(first, end);
+    if (!has_gain(end)) {
+      resolve(band.frame, *grids_in_order_[first], is_dark);
+      is_dark = false;
+    }
     submitted += rays;
-    if (submitted < limits_.rays_a_submission || end == job_.grids.size()) continue;
+    if (submitted < limits_.rays_a_submission || end == grids_in_order_.size()) continue;
     device_.finish();
     if (context.cancelled()) return true;
-    if (context.progress) context.progress(static_cast<double>(end) / static_cast<double>(job_.grids.size()));
+    if (context.progress) context.progress(static_cast<double>(end) / static_cast<double>(grids_in_order_.size()));
     device_.begin();
     submitted = 0;
   }
-  resolve(band, image);
+  read(band, image);
   return counters_[kOverflows] == 0;
 }
 
 void GridFrame::make_room(std::uint64_t& batch_rays) {
-  const std::uint64_t needed = counters_[kMostTileEntries], most = info_.storage_range_bytes / sizeof(std::uint32_t);
+  const std::uint64_t needed = counters_[kMostTileEntries];
+  const std::uint64_t most = device_.most_of(Slot::TileLists, sizeof(std::uint32_t));
   const bool only_lists = counters_[kOverflows] == kListsOverflow;
   if (only_lists && kept_.tile_entries < most) {
     kept_.tile_entries = std::min(needed + needed / 4, most);

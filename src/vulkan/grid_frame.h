@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "vulkan/counters.h"
@@ -25,7 +27,7 @@ struct BatchLimits {
 
 // The sizes of buffers that grow, from frame to frame.
 struct GridKept {
-  int most_rows = 0;  // DeviceOptions::most_rows
+  int most_rows = 0, large_pixels = 0;  // those of DeviceOptions
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
@@ -56,11 +58,16 @@ class GridFrame {
   void trace(std::size_t first, std::size_t end);
   void draw_cells(std::size_t first, std::size_t end);
   void draw_primitives(std::size_t first, std::size_t end);
-  void share_vertices(std::size_t first, std::size_t end);
-  void merge(std::size_t first, std::size_t end);
-  void draw_large(Shader shader, std::size_t any);
+  // The parameters of the grids' dispatches, one for each run of grids.
+  [[nodiscard]] std::vector<Parameters> runs_of(std::size_t first, std::size_t end) const;
+  // An invocation a ray, or a cell with `less` of 1.
+  void dispatch_runs(Shader shader, std::span<const Parameters> runs, std::uint32_t less);
+  void merge(std::span<const Parameters> runs);
+  void list_primitives(std::span<const Parameters> runs);
+  void draw_listed(std::optional<Program> open, Program cut, Program large, std::size_t any);
   [[nodiscard]] std::uint32_t style_flags() const;
-  void resolve(const Band& band, Image& image);
+  void resolve(const Frame& band, const DeviceGrid& any, bool is_first);
+  void read(const Band& band, Image& image);
 
   DeviceContext& device_;
   const DeviceInfo& info_;
@@ -69,13 +76,19 @@ class GridFrame {
   GridKept& kept_;
   StarburstStage& starbursts_;
   TileLists lists_;  // of the present band
+  std::uint32_t primitive_capacity_ = 0;  // of `tiled`: what the buffer of primitives holds
   double fixed_point_ = 1.0;  // units of the sums for a pixel value of 1
-  std::vector<Parameters> grids_;  // of the present band, by grid
-  std::vector<std::uint32_t> blocks_at_;  // of `tiled`, by grid: where its levels of merging begin
+  std::vector<const DeviceGrid*> grids_in_order_;  // those of the same gains one after the other
+  std::vector<Parameters> grids_;  // of the present band, by grid in this order
+  std::vector<PathPlace> places_;  // likewise
   std::array<std::uint32_t, kCounters> counters_{};  // of the last band
   DeviceWork work_;
 };
 
+// The paths of grids, and the trace of one of them.
+void upload_paths(DeviceContext& device, const PathData& data);
+void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceGrid& grid, const PathPlace& place,
+                    const Parameters& parameters);
 [[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
 // The largest value of a table at angles of incidence up to 75 degrees.
 [[nodiscard]] double largest_reflectance(const float* table);

@@ -17,6 +17,7 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint64_t kSmallestRange = std::uint64_t{64} << 20U;
+constexpr std::uint32_t kFewestTexels = 1U << 24U;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL pass_message(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
                                             VkDebugUtilsMessageTypeFlagsEXT /*types*/,
@@ -54,6 +55,12 @@ std::string reason_against(const vk::raii::PhysicalDevice& device, const vk::Phy
   if (limits.maxStorageBufferRange < kSmallestRange)
     return fmt::format("its buffers end at {} MiB, and {} MiB are needed", limits.maxStorageBufferRange >> 20U,
                        kSmallestRange >> 20U);
+  if (limits.maxTexelBufferElements < kFewestTexels)
+    return fmt::format("its shaders read {} texels of a buffer, and {} are needed", limits.maxTexelBufferElements,
+                       kFewestTexels);
+  if (limits.maxUniformBufferRange < kPathRange)
+    return fmt::format("its uniform buffers end at {} bytes, and {} are needed", limits.maxUniformBufferRange,
+                       kPathRange);
   return {};
 }
 

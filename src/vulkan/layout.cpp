@@ -2,14 +2,17 @@
 #include "vulkan/layout.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "optics/surface/shape_constants.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {
 
-constexpr std::size_t kGridReals = 14, kPathReals = 4, kStepReals = 20, kStepIntegers = 12;
-enum StepFlags : std::int32_t { kFromDenser = 1, kBlocksWithin = 2, kGeneral = 4 };
+constexpr std::size_t kGridReals = 14, kPathReals = 4, kStepReals = 20, kStepIntegers = 8;
+// The bits of a step's first word beside its event, as in shaders/trace.glsl.
+enum StepFlags : std::int32_t { kFromDenser = 4, kBlocksWithin = 8, kGeneral = 16, kBackwards = 32, kComplement = 64 };
+constexpr int kCrossingShift = 7;
 
 // Numbers of start.glsl.
 std::array<double, kGridReals> grid_numbers(const PacketStart& start, Vec2 step_mm, const PixelMap& map) {
@@ -86,17 +89,30 @@ std::size_t PathData::size(PacketPrecision precision) const {
   return precision == PacketPrecision::Double ? doubles_.size() : floats_.size();
 }
 
-void PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters& to) {
+PathPlace PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters& to) {
+  const auto align = [](auto& numbers) {
+    numbers.resize((numbers.size() + kPathAlignment - 1) / kPathAlignment * kPathAlignment);
+  };
+  align(floats_);
+  align(doubles_);
+  align(integers_);
+  const std::size_t origin = size(grid.precision);
   const auto numbers = grid_numbers(grid.path.start(), grid.step_mm, map);
   append({numbers.begin(), numbers.end()}, grid.precision);
-  const PathPlace place = add(grid.path, grid.precision);
-  to.reals_at = place.reals_at - static_cast<std::uint32_t>(kGridReals);
-  to.integers_at = place.integers_at;
+  PathPlace place = append(grid.path, grid.precision, origin);
+  place.reals_at = static_cast<std::uint32_t>(origin);
+  const std::size_t bytes_a_real = grid.precision == PacketPrecision::Double ? sizeof(double) : sizeof(float);
+  if ((size(grid.precision) - origin) * bytes_a_real > kPathRange)
+    throw std::runtime_error("a path has more surfaces than its shaders read");
   to.step_count = static_cast<std::uint32_t>(grid.path.steps().size());
   to.crossing_count = static_cast<std::uint32_t>(grid.path.stop_crossings());
+  return place;
 }
 
-PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) {
+PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) { return append(path, precision, 0); }
+
+// origin: what the places of shapes count from.
+PathPlace PathData::append(const PacketPath& path, PacketPrecision precision, std::size_t origin) {
   const std::size_t first = size(precision);
   std::vector<double> numbers;
   const auto extend = [&](const auto& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
@@ -107,19 +123,20 @@ PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) {
   for (const PacketStep& step : path.steps()) {
     std::array<std::int32_t, kStepIntegers> out{};
     const auto flag = [](bool on, std::int32_t bit) { return on ? bit : 0; };
-    out[0] = static_cast<std::int32_t>(step.event);
-    out[1] = step.crossing;
-    out[2] = flag(step.from_denser, kFromDenser) | flag(step.blocks_within, kBlocksWithin) | flag(general, kGeneral);
-    if (step.event != PathEvent::Stop) out[3] = table_of(path.tables() + step.reflectance);
-    out[4] = step.transmittance < 0 ? -1 : table_of(path.tables() + step.transmittance);
-    out[5] = -1;
+    const bool has_own = step.event == PathEvent::Refract && step.transmittance >= 0;
+    out[0] = static_cast<std::int32_t>(step.event) | flag(step.from_denser, kFromDenser) |
+             flag(step.blocks_within, kBlocksWithin) | flag(general, kGeneral) | flag(step.direction < 0, kBackwards) |
+             flag(step.event == PathEvent::Refract && !has_own, kComplement) | step.crossing << kCrossingShift;
+    if (step.event != PathEvent::Stop)
+      out[1] = table_of(path.tables() + (has_own ? step.transmittance : step.reflectance));
+    out[2] = -1;
     if (step.shape != nullptr) {
       const ShapeConstants& shape = *step.shape;
-      out[5] = static_cast<std::int32_t>(first + numbers.size());
-      out[6] = static_cast<std::int32_t>(shape.kind);
-      out[7] = shape.even_terms;
-      out[8] = shape.odd_terms;
-      out[9] = shape.rotated ? 1 : 0;
+      out[2] = static_cast<std::int32_t>(first + numbers.size() - origin);
+      out[3] = static_cast<std::int32_t>(shape.kind);
+      out[4] = shape.even_terms;
+      out[5] = shape.odd_terms;
+      out[6] = shape.rotated ? 1 : 0;
       extend(shape_numbers(shape));
     }
     integers_.insert(integers_.end(), out.begin(), out.end());

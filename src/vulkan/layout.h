@@ -14,7 +14,7 @@ namespace contrejour::inline internal::vulkan {
 
 // The parameters of a dispatch: shaders' push constants, in their order.
 struct Parameters {
-  std::uint32_t reals_at = 0, integers_at = 0, step_count = 0, first_ray = 0;
+  std::uint32_t step_count = 0, first_ray = 0;
   std::uint32_t side = 0, crossing_count = 0, bound_count = 0, flags = 0;
   std::int32_t width = 0, height = 0;
   float triangle_weight = 0;
@@ -23,6 +23,9 @@ struct Parameters {
   float merge_threshold = 0;
   std::uint32_t blocks_at = 0, level_side = 0, finer_at = 0, finer_side = 0;
   std::uint32_t large_capacity = 0, corner_capacity = 0;
+  std::uint32_t primitive_capacity = 0;
+  std::uint32_t grid_count = 1, block_stride = 0;
+  std::int32_t large_pixels = 0;
 };
 static_assert(sizeof(Parameters) <= 128, "every device has 128 bytes of push constants");
 
@@ -31,11 +34,12 @@ enum ParameterFlags : std::uint32_t {
   kSmooth = 2,
   kLastLevel = 4,
   kObscured = 8,
+  kFirst = 1,  // FLAG_FIRST
 };
-inline constexpr std::uint32_t kMethodShift = 4;
 
 inline constexpr std::uint64_t kRayBytes = 16, kCrossingBytes = 8 * kMaxStopCrossings, kVertexBytes = 8;
-inline constexpr std::uint64_t kLargeBytes = 64, kCornerBytes = 8, kSumBytes = 24, kPixelBytes = 12;
+inline constexpr std::uint64_t kLargeBytes = 64, kCornerBytes = 8, kSumBytes = 8, kCutRecordBytes = 16,
+                               kPixelBytes = 12;
 inline constexpr float kFailedHeight = 3.0e38F;  // FAILED
 
 // Maps a point of the sensor (mm) to pixels: origin + scale * sensor.
@@ -43,6 +47,10 @@ struct PixelMap {
   Vec2 origin, scale;
 };
 [[nodiscard]] PixelMap pixel_map(const Frame& frame, Vec2 shift_mm);
+
+// Numbers that a grid's path may begin at, so that a uniform buffer of any device may begin there.
+inline constexpr std::size_t kPathAlignment = 64;
+inline constexpr std::uint64_t kPathRange = 64U << 10U;  // bytes of a path: those of PATH_NUMBERS in shaders/trace.comp
 
 // The places at which the numbers of a path begin.
 struct PathPlace {
@@ -53,8 +61,9 @@ struct PathPlace {
 class PathData {
  public:
   [[nodiscard]] PathPlace add(const PacketPath& path, PacketPrecision precision);
-  // Appends a grid's start and path, and sets the members of a dispatch that refer to them.
-  void add(const DeviceGrid& grid, const PixelMap& map, Parameters& to);
+  // Appends a grid's start and path, whose places are multiples of kPathAlignment, and sets the members of a dispatch
+  // that describe the path. The numbers refer to each other from the place on.
+  [[nodiscard]] PathPlace add(const DeviceGrid& grid, const PixelMap& map, Parameters& to);
 
   [[nodiscard]] const std::vector<float>& floats() const { return floats_; }
   [[nodiscard]] const std::vector<double>& doubles() const { return doubles_; }
@@ -62,6 +71,7 @@ class PathData {
   [[nodiscard]] const std::vector<float>& tables() const { return tables_; }
 
  private:
+  [[nodiscard]] PathPlace append(const PacketPath& path, PacketPrecision precision, std::size_t origin);
   [[nodiscard]] int table_of(const float* values);
   void append(const std::vector<double>& numbers, PacketPrecision precision);
   [[nodiscard]] std::size_t size(PacketPrecision precision) const;

@@ -23,9 +23,13 @@ namespace {
 #include "vulkan/bin_wide.inc"
 #include "vulkan/blocks.inc"
 #include "vulkan/cells.inc"
+#include "vulkan/cut_cells.inc"
+#include "vulkan/cut_primitives.inc"
 #include "vulkan/large_cells.inc"
 #include "vulkan/large_primitives.inc"
 #include "vulkan/list_sizes.inc"
+#include "vulkan/merged_blocks.inc"
+#include "vulkan/open_primitives.inc"
 #include "vulkan/place_lists.inc"
 #include "vulkan/primitives.inc"
 #include "vulkan/resolve.inc"
@@ -44,11 +48,15 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::TraceFloat: return kTraceCode;
     case Shader::TraceDouble: return kTraceDoubleCode;
     case Shader::Cells: return kCellsCode;
+    case Shader::CutCells: return kCutCellsCode;
     case Shader::LargeCells: return kLargeCellsCode;
     case Shader::Resolve: return kResolveCode;
     case Shader::Widen: return kWidenCode;
     case Shader::Blocks: return kBlocksCode;
     case Shader::Primitives: return kPrimitivesCode;
+    case Shader::MergedBlocks: return kMergedBlocksCode;
+    case Shader::OpenPrimitives: return kOpenPrimitivesCode;
+    case Shader::CutPrimitives: return kCutPrimitivesCode;
     case Shader::LargePrimitives: return kLargePrimitivesCode;
     case Shader::Vertices: return kVerticesCode;
     case Shader::ListSizes: return kListSizesCode;

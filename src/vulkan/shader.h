@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "contrejour/method_options.h"
 #include "optics/trace/packet_trace.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -14,11 +15,15 @@ enum class Shader : std::uint8_t {
   TraceFloat,
   TraceDouble,
   Cells,
+  CutCells,
   LargeCells,
   Resolve,
   Widen,
   Blocks,
+  MergedBlocks,
   Primitives,
+  OpenPrimitives,
+  CutPrimitives,
   LargePrimitives,
   Vertices,
   ListSizes,
@@ -45,21 +50,28 @@ enum class Shader : std::uint8_t {
   StarburstNear,
   Rgba,
 };
-inline constexpr std::size_t kShaders = 32;
+inline constexpr std::size_t kShaders = 36;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
-// surfaces, for those of `adaptive` whether the iris is a picture.
+// surfaces, for those of `adaptive` whether the iris is a picture, for those
+// of `tiled` the interpolation.
 struct Program {
   Program(Shader which, PathGeometry surfaces = PathGeometry::General) : shader(which), geometry(surfaces) {}
+  Program(Shader which, TiledOptions::Interpolation method)
+      : shader(which), interpolation(method), interpolates(true) {}
 
   Shader shader;
-  PathGeometry geometry;
+  PathGeometry geometry = PathGeometry::General;
+  TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
+  bool interpolates = false;
   bool has_picture = false;
 };
 inline constexpr std::size_t kPrograms = 6 * kShaders;
 [[nodiscard]] inline std::size_t number_of(Program program) {
-  return 6 * static_cast<std::size_t>(program.shader) + 2 * static_cast<std::size_t>(program.geometry) +
-         (program.has_picture ? 1 : 0);
+  const std::size_t variant = program.interpolates
+                                  ? static_cast<std::size_t>(program.interpolation)
+                                  : 2 * static_cast<std::size_t>(program.geometry) + (program.has_picture ? 1 : 0);
+  return 6 * static_cast<std::size_t>(program.shader) + variant;
 }
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);

@@ -48,6 +48,7 @@ class VulkanDevice final : public FrameDevice {
   Result<DeviceWork> draw(const GridJob& job, Image& image, const Context& context) override {
     adaptive_.paths = nullptr;  // grids use the same buffers
     grids_.most_rows = options_.most_rows;
+    grids_.large_pixels = options_.large_pixels;
     return run(job.grids.empty(), image, context, [&](DeviceContext& device) {
       StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
       GridJob used = job;
@@ -189,19 +190,18 @@ class VulkanDevice final : public FrameDevice {
 DeviceRays VulkanDevice::trace_alone(DeviceContext& device, const DeviceGrid& grid) const {
   PathData data;
   Parameters p;
-  data.add(grid, {{}, {1.0, 1.0}}, p);
+  const PathPlace place = data.add(grid, {{}, {1.0, 1.0}}, p);
   p.side = static_cast<std::uint32_t>(grid.side);
-  device.upload(Slot::Floats, data.floats());
-  device.upload(Slot::Doubles, data.doubles());
-  device.upload(Slot::Integers, data.integers());
-  device.upload(Slot::Tables, data.tables());
+  p.flags = kCircle;
+  p.triangle_weight = 1.0F;
+  upload_paths(device, data);
   const std::uint64_t count = ray_count(grid);
   device.need(Slot::Rays, kRayBytes * count);
   device.need(Slot::Crossings, kCrossingBytes * count);
+  device.need(Slot::Vertices, kVertexBytes * count);
   device.need_fetched((kRayBytes + kCrossingBytes) * count);
   device.begin();
-  const Shader shader = grid.precision == PacketPrecision::Double ? Shader::TraceDouble : Shader::TraceFloat;
-  device.dispatch({shader, grid.path.geometry()}, p, groups_of(count, info_));
+  dispatch_trace(device, info_, grid, place, p);
   device.barrier();
   device.fetch(Slot::Rays, kRayBytes * count);
   device.fetch(Slot::Crossings, kCrossingBytes * count, kRayBytes * count);

@@ -74,6 +74,22 @@ TEST_CASE("every interpolation of tiled is the CPU's") {
                std::span(kTwoLights).first(1), settings);
 }
 
+TEST_CASE("polygons of few pixels or many are drawn by tile as by one invocation") {
+  OnDevice by_tile({.large_pixels = 4}), alone({.large_pixels = 1 << 24});
+  if (!by_tile.kept.device) return;
+  const LensState lens = lens_of("heliar", 7);
+  FrameSettings settings = settings_of(lens);
+  settings.selection = SelectBrightest{6};
+  for (const MethodOptions& method : {bundle_of(32), tiled_of(32)}) {
+    const Flare exact = frame_by(method, lens, kTwoLights, settings, by_tile.cpu_cache);
+    const Flare got = frame_by(method, lens, kTwoLights, settings, by_tile.cache);
+    check_agreement(by_tile, lens, exact, got, {60.0, 1e-3});
+    check_agreement(alone, lens, got, frame_by(method, lens, kTwoLights, settings, alone.cache), {90.0, 1e-5});
+    CHECK(frame_by(method, lens, kTwoLights, settings, by_tile.cache).image.pixels == got.image.pixels);
+  }
+  test::check_no_messages();
+}
+
 TEST_CASE("a frame is the same bits from run to run, and from a device that drew others [slow]") {
   OnDevice device, fresh;
   if (!device.kept.device) return;

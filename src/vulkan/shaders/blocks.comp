@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds which blocks of cells are one primitive, a level of merging a dispatch: PrimitiveBuilder::find_cells() and
-// merge(). blocks[]: a block's flux if it is whole; BLOCK_DARK or BLOCK_PARTED if not.
+// Finds which cells, or with MERGED blocks of cells, are one primitive, a level of merging a dispatch:
+// PrimitiveBuilder::find_cells() and merge(). blocks[]: a block's flux if it is whole; BLOCK_DARK or BLOCK_PARTED if
+// not.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
@@ -10,12 +11,14 @@ layout(local_size_x = 64) in;
 #define BLOCK_DARK -1.0
 #define BLOCK_PARTED -2.0
 
+uint own_grid;
+
 float cell_value(uint ix, uint iy) {
   uvec4 v = corners_of(1u, ix, iy);
   bool lit = passes(v.x) || passes(v.y) || passes(v.z) || passes(v.w);
   if (!lit) return BLOCK_DARK;
   if (any_failed(v) || !is_convex(v)) return BLOCK_PARTED;
-  return p.triangle_weight / 3.0 * (2.0 * (rays[v.x].z + rays[v.z].z) + rays[v.y].z + rays[v.w].z);
+  return 1.0 / 3.0 * (2.0 * (ray_of(v.x).z + ray_of(v.z).z) + ray_of(v.y).z + ray_of(v.w).z);
 }
 
 bool same(vec2 difference) { return abs(difference.x) + abs(difference.y) < p.merge_threshold; }
@@ -24,7 +27,8 @@ bool same(vec2 difference) { return abs(difference.x) + abs(difference.y) < p.me
 bool is_flat(uint ix, uint iy) {
   uint half_size = (1u << p.level) / 2u;
   vec2 q[9];
-  for (uint k = 0u; k < 9u; ++k) q[k] = rays[ray_at((2u * ix + k % 3u) * half_size, (2u * iy + k / 3u) * half_size)].xy;
+  for (uint k = 0u; k < 9u; ++k)
+    q[k] = ray_of(ray_at((2u * ix + k % 3u) * half_size, (2u * iy + k / 3u) * half_size)).xy;
   for (int k = 0; k < 3; ++k) {
     if (!same(q[3 * k] - 2.0 * q[3 * k + 1] + q[3 * k + 2])) return false;
     if (!same(q[k] - 2.0 * q[k + 3] + q[k + 6])) return false;
@@ -41,14 +45,14 @@ bool is_flat(uint ix, uint iy) {
 bool is_open(uint ix, uint iy) {
   uint half_size = (1u << p.level) / 2u;
   for (uint k = 0u; k < 9u; ++k)
-    if (rays[ray_at((2u * ix + k % 3u) * half_size, (2u * iy + k / 3u) * half_size)].w > 1.0) return false;
+    if (ray_of(ray_at((2u * ix + k % 3u) * half_size, (2u * iy + k / 3u) * half_size)).w > 1.0) return false;
   return true;
 }
 
 float merged_value(uint ix, uint iy) {
   float flux = 0.0;
   for (uint k = 0u; k < 4u; ++k) {
-    float part = blocks[p.finer_at + (2u * iy + k / 2u) * p.finer_side + 2u * ix + k % 2u];
+    float part = blocks[p.finer_at + own_grid * p.block_stride + (2u * iy + k / 2u) * p.finer_side + 2u * ix + k % 2u];
     if (part < 0.0) return BLOCK_PARTED;
     flux += part;
   }
@@ -58,8 +62,16 @@ float merged_value(uint ix, uint iy) {
 }
 
 void main() {
-  uint k = linear_invocation();
-  if (k >= p.level_side * p.level_side) return;
+  uint k = linear_invocation(), count = p.level_side * p.level_side;
+  if (k >= p.grid_count * count) return;
+  own_grid = k / count;
+  first_ray = p.first_ray + own_grid * p.side * p.side;
+  k -= own_grid * count;
   uint ix = k % p.level_side, iy = k / p.level_side;
-  blocks[p.blocks_at + k] = p.level == 0u ? cell_value(ix, iy) : merged_value(ix, iy);
+  uint at = p.blocks_at + own_grid * p.block_stride + k;
+#ifdef MERGED
+  blocks[at] = merged_value(ix, iy);
+#else
+  blocks[at] = cell_value(ix, iy);
+#endif
 }

@@ -14,27 +14,11 @@ struct Density {
 
 ivec2 base;  // a pixel near the cell: coordinates relative to it keep their digits
 
-vec2 pixel_of(uint ray) { return rays[ray].xy - vec2(base); }
-
-int state_of(uvec4 v, uint crossing_count) {
-  bool open = true, high = true;
-  for (int k = 0; k < 4; ++k) {
-    open = open && passes(v[k]);
-    high = high && rays[v[k]].w > 1.0;
-  }
-  if (open) return STATE_OPEN;
-  if (high) return STATE_CLOSED;
-  for (uint c = 0u; c < crossing_count; ++c) {
-    bool outside = true;
-    for (int k = 0; k < 4; ++k) outside = outside && !(iris_distance(crossing(v[k], c)) <= 0.0);
-    if (outside) return STATE_CLOSED;
-  }
-  return STATE_CUT;
-}
+vec2 pixel_of(uint ray) { return ray_of(ray).xy - vec2(base); }
 
 bool outside_frame(uvec4 v) {
-  vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
-  vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
+  vec2 low = min(min(ray_of(v.x).xy, ray_of(v.y).xy), min(ray_of(v.z).xy, ray_of(v.w).xy));
+  vec2 high = max(max(ray_of(v.x).xy, ray_of(v.y).xy), max(ray_of(v.z).xy, ray_of(v.w).xy));
   return !(low.x < float(p.width) && low.y < float(p.height) && high.x >= 0.0 && high.y >= 0.0);
 }
 
@@ -67,7 +51,7 @@ bool is_convex(vec2 a, vec2 b, vec2 c, vec2 d, float orientation) {
 
 // The plane whose differences along both diagonals are those of the vertices' irradiances, relative to their mean.
 vec2 gradient_of(uvec4 v, vec4 e) {
-  vec2 d = rays[v.z].xy - rays[v.x].xy, f = rays[v.w].xy - rays[v.y].xy;
+  vec2 d = ray_of(v.z).xy - ray_of(v.x).xy, f = ray_of(v.w).xy - ray_of(v.y).xy;
   float mean = 0.25 * (e.x + e.y + e.z + e.w);
   float along_d = (e.z - e.x) / mean, along_f = (e.w - e.y) / mean;
   return vec2(along_d * f.y - along_f * d.y, along_f * d.x - along_d * f.x) / cross2(d, f);

@@ -10,7 +10,8 @@
 #define COUNT_OVERFLOWS 6    // bits, OVERFLOW_...
 #define COUNT_MOST_LISTED 7  // the size that lists needed where theirs did not suffice
 #define COUNT_PRIMITIVES 8   // `bundle`, `tiled`
-#define COUNT_CUT 9          // `adaptive`: parts of cut cells
+#define COUNT_CUT 9          // cells, parts of cells or primitives that are cut
+#define COUNT_OPEN 10        // `tiled`: primitives that nothing cuts
 #define COUNT_BLOCKS 10      // `adaptive`: of 64 rays
 #define COUNT_PEAK 11        // `adaptive`: bits of a float, the peak that errors are relative to
 #define OVERFLOW_RAYS 1u
@@ -20,6 +21,7 @@
 #define OVERFLOW_TURNS 16u  // a driver that bounds the turns of loops ended one before the end of a tile's list
 
 #define DISPATCH_RAYS 0u
+#define DISPATCH_OPEN 0u
 #define DISPATCH_CUT 1u
 #define DISPATCH_POLYGONS 2u
 #define DISPATCH_WIDE 3u

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The iris as ghosts/iris_shape.h: bounds of eight numbers each, (nx, ny, apothem, straight, cx, cy, radius, power).
-bool is_straight(uint b) { return bounds[8u * b + 3u] != 0.0; }
-vec2 bound_normal(uint b) { return vec2(bounds[8u * b], bounds[8u * b + 1u]); }
-float bound_apothem(uint b) { return bounds[8u * b + 2u]; }
-vec2 bound_centre(uint b) { return vec2(bounds[8u * b + 4u], bounds[8u * b + 5u]); }
-float bound_radius(uint b) { return bounds[8u * b + 6u]; }
-float bound_power(uint b) { return bounds[8u * b + 7u]; }
+bool is_straight(uint b) { return bound_half(2u * b).w != 0.0; }
+vec2 bound_normal(uint b) { return bound_half(2u * b).xy; }
+float bound_apothem(uint b) { return bound_half(2u * b).z; }
+vec2 bound_centre(uint b) { return bound_half(2u * b + 1u).xy; }
+float bound_radius(uint b) { return bound_half(2u * b + 1u).z; }
+float bound_power(uint b) { return bound_half(2u * b + 1u).w; }
 
 float bound_distance(uint b, vec2 q) {
-  if (is_straight(b)) return dot(bound_normal(b), q) - bound_apothem(b);
-  vec2 from = q - bound_centre(b);
-  float power = dot(q, q) - 2.0 * dot(bound_centre(b), q) + bound_power(b);
-  return power / (length(from) + bound_radius(b));
+  vec4 line = bound_half(2u * b);
+  if (line.w != 0.0) return dot(line.xy, q) - line.z;
+  vec4 circle = bound_half(2u * b + 1u);
+  float power = dot(q, q) - 2.0 * dot(circle.xy, q) + circle.w;
+  return power / (length(q - circle.xy) + circle.z);
 }
 
 float iris_distance(vec2 q) {
@@ -23,7 +24,7 @@ float iris_distance(vec2 q) {
 
 // The largest of relative_height - 1 and the iris distances: <= 0 where a ray passes.
 float blocked(uint ray, uint crossing_count) {
-  float most = rays[ray].w - 1.0;
+  float most = ray_of(ray).w - 1.0;
   for (uint c = 0u; c < crossing_count; ++c) most = max(most, iris_distance(crossing(ray, c)));
   return most;
 }

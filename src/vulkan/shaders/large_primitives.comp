@@ -14,14 +14,18 @@ void main() {
   ivec2 pixel = begin_tile(task);
   uint k = task.from;
   for (; k < task.end; ++k) {
-    uint polygon = tile_lists[k];
+    uint polygon = texelFetch(list_texels, int(k)).x;
     if (!contains(polygon, pixel)) continue;
-    uint word = RECORD_WORDS * polygon, flags = large[word + 8u];
-    uvec4 corners = uvec4(large[word], large[word + 1u], large[word + 2u], large[word + 3u]);
-    vec4 irradiance = vec4(word_float(word + 4u), word_float(word + 5u), word_float(word + 6u), word_float(word + 7u));
-    Primitive q = Primitive(corners, irradiance, (flags & 1u) != 0u, (flags & 2u) != 0u);
-    float flux = light_at(q, pixel, flags >> 2u);
-    if (flux != 0.0) add_to_pixel(flux, word + 9u);
+    uvec4 v = large_quarter(4u * polygon), words = large_quarter(4u * polygon + 2u);
+    vec4 irradiance = uintBitsToFloat(large_quarter(4u * polygon + 1u));
+    vec2 corners[4];
+    for (int i = 0; i < 4; ++i) corners[i] = ray_of(v[i]).xy;
+    vec4 w = weights_in(corners, (words.x & 1u) != 0u, pixel);
+    Edges edges = edges_of(v, words.x >> 2u);
+    edges.bounds = uint[MAX_CROSSINGS](words.y, words.z, words.w);
+    if ((words.x & 2u) == 0u && is_blocked(edges, w)) continue;
+    float flux = dot(w, irradiance);
+    if (flux != 0.0) add_to_pixel(flux);
   }
   check_end(k, task.end);
   end_tile(pixel);

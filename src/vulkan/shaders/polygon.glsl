@@ -67,17 +67,21 @@ void clip_by_iris(uint c) {
 
 void set_triangle(uvec3 t, uint crossing_count) {
   for (int k = 0; k < 3; ++k) {
-    heights_of_triangle[k] = rays[t[k]].w;
+    heights_of_triangle[k] = ray_of(t[k]).w;
     for (uint c = 0u; c < crossing_count; ++c) stops_of_triangle[c][k] = crossing(t[k], c);
   }
 }
 
-// Leaves the open part of the triangle of rays in (u, v).
-void clip_triangle(uint crossing_count) {
+// The whole triangle, in (u, v).
+void begin_triangle() {
   polygon[0] = vec2(0.0);
   polygon[1] = vec2(1.0, 0.0);
   polygon[2] = vec2(0.0, 1.0);
   corner_count = 3;
+}
+
+// Leaves the open part of the triangle of rays.
+void clip_triangle(uint crossing_count) {
   cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
   for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_iris(c);
 }

@@ -36,14 +36,14 @@ struct Powers {
 #define MIN_COSINE 0.015625
 #define AT_TIP 1e-12
 
-real constant(Shape s, int k) { return reals[s.reals + k]; }
+real constant(Shape s, int k) { return path_number(uint(s.reals + k)); }
 
 void polynomial(int first, int terms, real u, out real value, out real slope) {
-  value = reals[first + terms - 1];
+  value = path_number(uint(first + terms - 1));
   slope = real(0.0);
   for (int k = terms - 2; k >= 0; --k) {
     slope = slope * u + value;
-    value = value * u + reals[first + k];
+    value = value * u + path_number(uint(first + k));
   }
 }
 

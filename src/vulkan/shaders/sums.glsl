@@ -40,5 +40,3 @@ void add_fixed(uint at, uvec2 value) {
   uint carry = before > ~value.x ? 1u : 0u;
   if (value.y + carry != 0u) atomicAdd(sums[at + 1u], value.y + carry);
 }
-
-void add_to_channel(uint at, float value) { add_fixed(at, to_fixed(value)); }

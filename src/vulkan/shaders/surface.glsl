@@ -88,14 +88,18 @@ void move_to(exactly inout Ray3 ray, Hit hit, real z_vertex) {
   ray.z = z_vertex + hit.sag;
 }
 
-// Returns cos^2 of the angle of refraction; negative for total reflection. The GLSL function of the name differs.
-real refract_ray(exactly inout Ray3 ray, Hit hit, real eta, real direction) {
-  real cos_out_squared = real(1.0) - eta * eta * (real(1.0) - hit.cos_in * hit.cos_in);
-  real along_normal = direction * (square_root(max(cos_out_squared, real(0.0))) - eta * hit.cos_in);
+// Negative for total reflection.
+real cosine_out_squared(real eta, real cos_in) {
+  exactly real squared = real(1.0) - eta * eta * (real(1.0) - cos_in * cos_in);
+  return squared;
+}
+
+// cos_out: of the angle of refraction. The GLSL function of the name differs.
+void refract_ray(exactly inout Ray3 ray, Hit hit, real eta, real direction, real cos_out) {
+  real along_normal = direction * (cos_out - eta * hit.cos_in);
   ray.dx = eta * ray.dx + along_normal * hit.nx;
   ray.dy = eta * ray.dy + along_normal * hit.ny;
   ray.dz = eta * ray.dz + along_normal * hit.nz;
-  return cos_out_squared;
 }
 
 void reflect_ray(exactly inout Ray3 ray, Hit hit, real direction) {

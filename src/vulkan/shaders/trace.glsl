@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray along a path: optics/trace/packet_trace.cpp under the same names. Whoever includes this file includes buffers.glsl
-// and defines start_real(k), one of the numbers START_..., before it, and sets the path. With GEOMETRY_ONLY transmissions
-// are left out.
+// A ray along a path: optics/trace/packet_trace.cpp under the same names. Whoever includes this file includes
+// buffers.glsl and defines start_real(k), one of the numbers START_..., and path_number(k), path_word(k) and
+// table_pair(k), the numbers of paths and two reflectances, before it, and sets the path. With GEOMETRY_ONLY
+// transmissions are left out.
 #include "surface.glsl"
 #include "shape.glsl"
 
@@ -9,14 +10,19 @@
 #define BEYOND_EQUATOR_SQUARED 4.0
 
 // A path, then its steps: numbers as written by layout.cpp.
-#define PATH_REALS 4
-#define STEP_REALS 20
-#define STEP_INTEGERS 12
+#define PATH_REALS 4u
+#define STEP_REALS 20u
+#define STEP_INTEGERS 8u
 #define EVENT_REFRACT 0
 #define EVENT_REFLECT 1
-#define STEP_FROM_DENSER 1
-#define STEP_BLOCKS_WITHIN 2
-#define STEP_GENERAL 4
+// The bits of a step's first word: the event, what else is to be known of it, and the crossing of the stop.
+#define STEP_EVENT 3
+#define STEP_FROM_DENSER 4
+#define STEP_BLOCKS_WITHIN 8
+#define STEP_GENERAL 16
+#define STEP_BACKWARDS 32   // light runs towards smaller z
+#define STEP_COMPLEMENT 64  // the table has reflectances where the transmittance counts
+#define STEP_CROSSING_SHIFT 7
 
 // The surfaces of the path, as PathGeometry: code for others is left out.
 layout(constant_id = 0) const uint GEOMETRY = 2u;
@@ -32,24 +38,24 @@ struct PacketState {
   bool alive;
 };
 
-real step_real(uint step, int k) { return reals[path_reals + PATH_REALS + step * STEP_REALS + k]; }
-int step_integer(uint step, int k) { return integers[path_integers + step * STEP_INTEGERS + k]; }
-real path_real(int k) { return reals[path_reals + k]; }  // the sensor's gap and offset; 1 over the stop's radius
+real step_real(uint step, int k) { return path_number(path_reals + PATH_REALS + step * STEP_REALS + uint(k)); }
+int step_integer(uint step, int k) { return path_word(path_integers + step * STEP_INTEGERS + uint(k)); }
+// The sensor's gap and offset; 1 over the stop's radius.
+real path_real(int k) { return path_number(path_reals + uint(k)); }
 
 real look_up(int table, real u) {
   real position = min((u > real(0.0) ? u : real(0.0)) * real(TABLE_INTERVALS), real(TABLE_INTERVALS));
   int index = min(int(position), TABLE_INTERVALS - 1);
-  float low = tables[table + index];
-  float high = tables[table + index + 1];
-  return real(low) + (position - real(index)) * real(high - low);
+  vec2 about = table_pair(table + index);
+  return real(about.x) + (position - real(index)) * real(about.y - about.x);
 }
 
 Hit meet(inout Ray3 ray, uint step, bool general, real c, real direction, out SurfaceFramePoint own) {
-  int shape_at = WITH_SHAPES ? step_integer(step, 5) : -1;
+  int shape_at = WITH_SHAPES ? step_integer(step, 2) : -1;
   Shape shape;
   if (shape_at >= 0)
-    shape = Shape(shape_at, step_integer(step, 6), step_integer(step, 7), step_integer(step, 8),
-                  step_integer(step, 9) != 0);
+    shape = Shape(shape_at, step_integer(step, 3), step_integer(step, 4), step_integer(step, 5),
+                  step_integer(step, 6) != 0);
   real gap = step_real(step, 0);
   Hit hit;
   if (!general) {
@@ -110,9 +116,9 @@ void absorb(inout PacketState s, uint step, real from_z) {
 }
 
 void advance(inout PacketState s, uint step) {
-  int event = step_integer(step, 0), flags = step_integer(step, 2);
-  bool general = WITH_GENERAL && (flags & STEP_GENERAL) != 0;
-  real direction = step_real(step, 4);
+  int word = step_integer(step, 0), event = word & STEP_EVENT;
+  bool general = WITH_GENERAL && (word & STEP_GENERAL) != 0;
+  real direction = (word & STEP_BACKWARDS) != 0 ? real(-1.0) : real(1.0);
   real from_z = s.ray.z;
   SurfaceFramePoint own;
   Hit hit = meet(s.ray, step, general, step_real(step, 1), direction, own);
@@ -120,11 +126,16 @@ void advance(inout PacketState s, uint step) {
   if (general && step_real(step, 16) != real(0.0)) absorb(s, step, from_z);
   if (event != EVENT_REFRACT && event != EVENT_REFLECT) {
     real inverse_radius = path_real(3);
-    stop_points[step_integer(step, 1)] = vec2(float(s.ray.x * inverse_radius), float(s.ray.y * inverse_radius));
+    vec2 at = vec2(float(s.ray.x * inverse_radius), float(s.ray.y * inverse_radius));
+    // Without an index that varies, which would keep the points in memory.
+    int crossed = word >> STEP_CROSSING_SHIFT;
+    stop_points[0] = crossed == 0 ? at : stop_points[0];
+    stop_points[1] = crossed == 1 ? at : stop_points[1];
+    stop_points[2] = crossed == 2 ? at : stop_points[2];
     return;
   }
   s.relative_height_squared =
-      max(s.relative_height_squared, height_squared_at(step, general, (flags & STEP_BLOCKS_WITHIN) != 0, own));
+      max(s.relative_height_squared, height_squared_at(step, general, (word & STEP_BLOCKS_WITHIN) != 0, own));
 
   real eta = step_real(step, 3);
 #ifdef GEOMETRY_ONLY
@@ -133,23 +144,24 @@ void advance(inout PacketState s, uint step) {
     if (general && step_real(step, 19) != real(1.0)) deflect_by_grating(s, step);
     return;
   }
-  s.alive = s.alive && refract_ray(s.ray, hit, eta, direction) > real(0.0);
-#else
-  int reflectance = step_integer(step, 3), transmittance = step_integer(step, 4);
-  real cos_in = min(hit.cos_in, real(1.0));
-  bool from_denser = (flags & STEP_FROM_DENSER) != 0;
-  if (event == EVENT_REFLECT) {
-    real cos_out_squared = real(1.0) - eta * eta * (real(1.0) - cos_in * cos_in);
-    real u = from_denser ? square_root(max(cos_out_squared, real(0.0))) : cos_in;
-    s.transmission *= look_up(reflectance, u);
-    reflect_ray(s.ray, hit, direction);
-    if (general && step_real(step, 19) != real(1.0)) deflect_by_grating(s, step);
-    return;
-  }
-  real cos_out_squared = refract_ray(s.ray, hit, eta, direction);
+  real cos_out_squared = cosine_out_squared(eta, hit.cos_in);
   s.alive = s.alive && cos_out_squared > real(0.0);
-  real u = from_denser ? square_root(max(cos_out_squared, real(0.0))) : cos_in;
-  s.transmission *= transmittance >= 0 ? look_up(transmittance, u) : real(1.0) - look_up(reflectance, u);
+  refract_ray(s.ray, hit, eta, direction, square_root(max(cos_out_squared, real(0.0))));
+#else
+  // Roots and tables are found at one place, since lavapipe evaluates both sides of a branch.
+  bool reflects = event == EVENT_REFLECT;
+  real cos_in = min(hit.cos_in, real(1.0));
+  exactly real cos_out_squared = cosine_out_squared(eta, reflects ? cos_in : hit.cos_in);
+  real cos_out = square_root(max(cos_out_squared, real(0.0)));
+  s.alive = s.alive && (reflects || cos_out_squared > real(0.0));
+  if (reflects)
+    reflect_ray(s.ray, hit, direction);
+  else
+    refract_ray(s.ray, hit, eta, direction, cos_out);
+  real u = (word & STEP_FROM_DENSER) != 0 ? cos_out : cos_in;
+  real found = look_up(step_integer(step, 1), u);
+  s.transmission *= (word & STEP_COMPLEMENT) != 0 ? real(1.0) - found : found;
+  if (general && reflects && step_real(step, 19) != real(1.0)) deflect_by_grating(s, step);
 #endif
 }
 

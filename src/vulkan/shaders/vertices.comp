@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes for each ray of a grid the irradiance there, and whether the ray is blocked.
+// Computes for each ray of a grid the irradiance there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
-#include "iris.glsl"
 #include "quad.glsl"
 #include "vertex.glsl"
 
 void main() {
-  uint k = linear_invocation();
-  if (k < p.side * p.side) vertices[p.first_ray + k] = vertex_at(k % p.side, k / p.side, p.side, p.crossing_count);
+  uint k = linear_invocation(), count = p.side * p.side;
+  if (k >= p.grid_count * count) return;
+  uint ray = p.first_ray + k, own = k % count;
+  first_ray = ray - own;
+  vertices[ray].x = shared_irradiance(own % p.side, own / p.side, p.side);
 }

@@ -5,7 +5,6 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
-#include "iris.glsl"
 
 #define NARROW_PX 0.25
 #define WIDENED_PX 3.0
@@ -34,11 +33,12 @@ float widening(double squares, double count) {
 }
 
 void main() {
-  uint rays_of_grid = p.side * p.side;
+  uint rays_of_grid = p.side * p.side, first_ray = p.first_ray + linear_group() * rays_of_grid;
+  if (linear_group() >= p.grid_count) return;
   dvec3 sums = dvec3(0.0);
   for (uint k = gl_LocalInvocationIndex; k < rays_of_grid; k += 64u) {
-    uint ray = p.first_ray + k;
-    if (blocked(ray, p.crossing_count) <= 0.0) sums += dvec3(1.0, rays[ray].xy);
+    uint ray = first_ray + k;
+    if (passes(ray)) sums += dvec3(1.0, rays[ray].xy);
   }
   dvec3 moments = sum_over_group(sums);
   double count = moments.x;
@@ -46,9 +46,9 @@ void main() {
   dvec2 mean = moments.yz / count;
   sums = dvec3(0.0);
   for (uint k = gl_LocalInvocationIndex; k < rays_of_grid; k += 64u) {
-    uint ray = p.first_ray + k;
+    uint ray = first_ray + k;
     dvec2 from = dvec2(rays[ray].xy) - mean;
-    if (blocked(ray, p.crossing_count) <= 0.0) sums += dvec3(from.x * from.x, from.x * from.y, from.y * from.y);
+    if (passes(ray)) sums += dvec3(from.x * from.x, from.x * from.y, from.y * from.y);
   }
   dvec3 squares = sum_over_group(sums);
   float axis_angle = 0.5 * atan(float(2.0 * squares.y), float(squares.x - squares.z));
@@ -58,7 +58,7 @@ void main() {
   float by_along = widening(middle + half_difference, count), by_across = widening(middle - half_difference, count);
   if (by_along == 1.0 && by_across == 1.0) return;
   for (uint k = gl_LocalInvocationIndex; k < rays_of_grid; k += 64u) {
-    uint ray = p.first_ray + k;
+    uint ray = first_ray + k;
     vec2 from = vec2(dvec2(rays[ray].xy) - mean);
     float a = by_along * dot(from, along), b = by_across * (along.x * from.y - along.y * from.x);
     rays[ray].xy = vec2(mean) + vec2(a * along.x - b * along.y, a * along.y + b * along.x);

@@ -157,6 +157,7 @@ void list_part(float flux, float fraction, vec2 gradient) {
 }
 
 void list_triangle(vec2 gradient) {
+  begin_triangle();
   clip_triangle(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
   float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2

@@ -6,6 +6,9 @@
 uint path_item;
 
 float start_real(int k) { return start_real_of(path_item, k); }
+float path_number(uint k) { return floats[k]; }
+int path_word(uint k) { return integers[k]; }
+vec2 table_pair(int k) { return vec2(tables[k], tables[k + 1]); }
 
 #include "../trace.glsl"
 

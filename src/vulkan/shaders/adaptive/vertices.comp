@@ -13,7 +13,7 @@ void main() {
   if (!find_ray()) return;
   uint pattern = pattern_of(item), ray = first_ray + own, count = crossings_of(item);
   uint sharp = HAS_PICTURE ? 0u : pattern == 0u ? count : count - 1u;  // crossings
-  vec2 vertex = vertex_at(own % side, own / side, side, sharp);
+  vec2 vertex = vec2(shared_irradiance(own % side, own / side, side), blocked(ray, sharp));
   for (uint c = sharp; c < count; ++c)
     vertex.y = max(vertex.y, length(crossing(ray, c)) - stop_radius(pattern, c, count));
   vertices[ray] = vertex;

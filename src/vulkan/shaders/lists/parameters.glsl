@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameters of the shaders that list polygons by tile: those of src/vulkan/tile_lists.h.
+#define READ_TEXELS
 #include "../buffers.glsl"
 #include "../counts.glsl"
 

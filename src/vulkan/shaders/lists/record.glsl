@@ -6,6 +6,5 @@
 
 float record_float(uint polygon, uint k) { return uintBitsToFloat(large[RECORD_WORDS * polygon + k]); }
 ivec4 box_of(uint polygon) {
-  uint word = RECORD_WORDS * polygon + 12u;
-  return ivec4(int(large[word]), int(large[word + 1u]), int(large[word + 2u]), int(large[word + 3u]));
+  return ivec4(large_quarter(4u * polygon + 3u));
 }

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the cells that cells.comp has listed, one triangle an invocation: clips it by rims and the iris.
+// render/bundle/cell_raster.cpp under the same names.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+layout(local_size_x = 64) in;
+#include "bindings.glsl"
+#include "light.glsl"
+#include "iris.glsl"
+#include "polygon.glsl"
+#include "cell.glsl"
+#include "cell_pixels.glsl"
+#include "coverage.glsl"
+#include "cut_cell.glsl"
+
+shared uint primitive_count;
+
+// Lists the invocation's polygon, whose shoelace area is then positive.
+void list_polygon(Density density, ivec4 box) {
+  uint first = list_large(density, box, uint(corner_count));
+  if (first == NOT_LISTED) return;
+  bool is_reversed = twice_polygon_area() < 0.0;
+  for (int k = 0; k < corner_count; ++k)
+    large_corners[first + uint(k)] = polygon[is_reversed ? corner_count - 1 - k : k];
+}
+
+// A line's flux by length, in steps of at most half a pixel.
+void add_line(vec2 from, vec2 to, float flux) {
+  int steps = clamp(int(ceil(2.0 * length(to - from))), 1, 8192);
+  for (int k = 0; k < steps; ++k) {
+    ivec2 pixel = ivec2(floor(mix(from, to, (float(k) + 0.5) / float(steps)))) + base;
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= p.width || pixel.y >= p.height) continue;
+    add_light(pixel, flux / float(steps));
+  }
+}
+
+// The invocation's polygon, with an irradiance that is linear over it.
+void add_polygon(Density density) {
+  vec2 low = polygon[0], high = polygon[0];
+  for (int k = 1; k < corner_count; ++k) {
+    low = min(low, polygon[k]);
+    high = max(high, polygon[k]);
+  }
+  ivec4 box;
+  if (!pixels_of(low, high, box)) return;
+  if (is_large(box)) {
+    list_polygon(density, box);
+    return;
+  }
+  float orientation = twice_polygon_area() < 0.0 ? 1.0 : -1.0;
+  for (ivec2 at = box.xy; at.y <= box.w; step_in(box, at)) {
+    vec2 corner = vec2(at);
+    float covered = 0.0;
+    for (int k = 0; k < corner_count; ++k)
+      covered += area_right_of(polygon[k] - corner, polygon[k + 1 == corner_count ? 0 : k + 1] - corner);
+    if (covered * orientation > 0.0) add_light(at + base, covered * orientation * level_at(density, at));
+  }
+}
+
+// The open part of a triangle's image. fraction: the part's fraction of the triangle's flux.
+void draw_polygon(vec2 p0, vec2 p1, vec2 p2, float flux, float fraction, vec2 gradient) {
+  float area = abs(0.5 * cross2(p1 - p0, p2 - p0));
+  vec2 from = polygon[0], to = polygon[0];
+  bool is_point = in_one_pixel();
+  if (!is_point) farthest_corners(from, to);
+  // A polygon in one pixel is a line of one step.
+  if (is_point || area < SLIVER * dot(to - from, to - from)) {
+    add_line(from, to, flux * fraction);
+    return;
+  }
+  float value = flux / area;
+  add_polygon(Density((p0 + p1 + p2) * (1.0 / 3.0), value, gradient * value));
+}
+
+// Returns the polygons drawn.
+uint draw_triangle(uvec3 t, uint crossing_count, bool is_cut, vec2 gradient) {
+  vec4 r0 = ray_of(t.x), r1 = ray_of(t.y), r2 = ray_of(t.z);
+  if (failed(r0) || failed(r1) || failed(r2)) return 0u;
+  vec2 p0 = r0.xy - vec2(base), p1 = r1.xy - vec2(base), p2 = r2.xy - vec2(base);
+  set_triangle(t, crossing_count);
+  begin_triangle();
+  if (is_cut) clip_triangle(crossing_count);
+  if (corner_count < 3) return 0u;
+  float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
+  for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;
+  draw_polygon(p0, p1, p2, (r0.z + r1.z + r2.z) / 3.0, fraction, gradient);
+  return 1u;
+}
+
+uint draw_half(uvec4 cell, bool is_second) {
+  uint side = cell.y;
+  uvec4 v = cell.x + uvec4(0u, 1u, side + 1u, side);
+  vec4 r[4];
+  for (int k = 0; k < 4; ++k) r[k] = ray_of(v[k]);
+  bool any_failed = failed(r[0]) || failed(r[1]) || failed(r[2]) || failed(r[3]);
+  vec2 near = failed(r[0]) ? r[2].xy : r[0].xy;
+  base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
+  vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
+  float area = any_failed ? 0.0 : 0.5 * cross2(r[2].xy - r[0].xy, r[3].xy - r[1].xy);
+  vec2 gradient = vec2(0.0);
+  if ((p.flags & FLAG_SMOOTH) != 0u && all(greaterThan(e, vec4(0.0))) && abs(area) >= SHADED_CELL_PX)
+    gradient = gradient_of(v, e);
+  return draw_triangle(is_second ? v.xzw : v.xyz, cell.z, cell.w == 0u, gradient);
+}
+
+void main() {
+  if (gl_LocalInvocationIndex == 0u) primitive_count = 0u;
+  barrier();
+  uint k = linear_invocation(), primitives = 0u;
+  if (k < 2u * counters[COUNT_CUT]) primitives = draw_half(cut_cells[k / 2u], k % 2u == 1u);
+  atomicAdd(primitive_count, primitives);
+  barrier();
+  if (gl_LocalInvocationIndex == 0u) atomicAdd(counters[COUNT_PRIMITIVES], primitive_count);
+}
