@@ -32,7 +32,7 @@ namespace {
 constexpr double kLambda_nm = 550.0;
 constexpr double kPart = 0.45;  // of the range: the angle of the comparison
 constexpr double kCounts = 0.3;  // of a ghost's bright level: what belongs to its body
-constexpr std::size_t kStarts = 16;  // ghosts of a known lens, from which a fit may start
+constexpr int kStarts = 16;  // ghosts of a known lens, from which a fit may start
 constexpr double kSameGhost = 0.15;  // relative differences of speed and size of what counts as found
 constexpr double kResolution_px = 0.5;  // the RMS size of a point in a picture: sizes are compared with it
 constexpr double kCoincide = 0.03;  // the same of two true ghosts that no picture could tell apart

@@ -66,7 +66,7 @@ Result<std::vector<FoundGhost>> starts_of(const FitRequest& request, const Merge
   print_warnings(lens->warnings);
   double largest_rad = 0.0;
   for (const double angle : merged.angles_rad) largest_rad = std::max(largest_rad, std::abs(angle));
-  return discs_of_lens(*lens, largest_rad, static_cast<std::size_t>(request.fit.max_ghosts), context);
+  return discs_of_lens(*lens, largest_rad, request.fit.max_ghosts, context);
 }
 
 Result<FitResult> fitted(const FitRequest& request, const MergedSweep& merged, const SweepGeometry& geometry) {

@@ -398,6 +398,13 @@ class Fit(ProgramTest):
         self.assertIn("station-0003.exr", done.stderr.decode())
         self.assertEqual(len(json.loads(done.stdout)["stations"]), 10)
 
+    def test_fit_starts_from_the_ghosts_of_a_lens(self):
+        fit = ["measure", "fit", self.demo / "merged", "--max-ghosts", "1", "--max-small-ghosts", "0", "--json"]
+        found = json.loads(self.run_program(*fit, "-o", "a.flare.toml", "--lens", "tessar").stdout)
+        self.assertAlmostEqual(found["ghosts"][1]["speed"], -1.09, delta=0.02)
+        self.assertIn("no lens", self.error_of(*fit, "-o", "b.flare.toml", "--lens", "no-such-lens", code=1))
+        self.assertEqual(self.files(), ["a.flare.toml"])
+
     def test_fit_refuses(self):
         fit = ["measure", "fit", self.demo / "merged"]
         self.assertIn("together", self.error_of(*fit, "-o", "a.flare.toml", "--iso", "100", code=1))

@@ -78,7 +78,7 @@ struct LearntCoatings {
 // The ghosts of a lens as discs from which fit_flare can start (FlareFitOptions::starts), the brightest first: those
 // with an outline, in a sweep whose light moves up to this angle.
 [[nodiscard]] CONTREJOUR_API Result<std::vector<FoundGhost>> discs_of_lens(const LensState& lens,
-                                                                           double largest_angle_rad, std::size_t most,
+                                                                           double largest_angle_rad, int most,
                                                                            const Context& context = {});
 
 // How far a lens may be from its prescription before anything is measured: standard errors. 0: not to be learnt.
