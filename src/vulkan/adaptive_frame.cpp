@@ -101,8 +101,9 @@ void AdaptiveFrame::upload_paths() {
   for (const PacketPath& path : job_.paths->paths) kept_.places.push_back(data.add(path, PacketPrecision::Float));
   device_.upload(Slot::Floats, data.floats());
   device_.upload(Slot::Integers, data.integers());
-  device_.upload(Slot::Tables, data.tables());
-  work_.uploaded_bytes += 4 * (data.floats().size() + data.integers().size() + data.tables().size());
+  const std::vector<float> tables = data.table_pairs();
+  device_.upload(Slot::Tables, tables);
+  work_.uploaded_bytes += 4 * (data.floats().size() + data.integers().size() + tables.size());
   kept_.paths = job_.paths;
 }
 
@@ -132,6 +133,7 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   for (const DeviceStart& start : job_.starts) {
     const std::vector<float> numbers = start_numbers(start.start, start.meridian, pixel_map(band, {}));
     starts.insert(starts.end(), numbers.begin(), numbers.end());
+    starts.resize((starts.size() + 3) / 4 * 4);  // whole texels
   }
   std::vector<ItemRecord> items;
   items.reserve(job_.items.size());
@@ -375,6 +377,14 @@ void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   }
 }
 
+// Processors draw all pixels of a tile as long as one by one, so that there it pays for large polygons, too. Stop
+// patterns are dearer than the sums.
+std::int32_t AdaptiveFrame::small_px() const {
+  if (job_.dirt || has_picture()) return 64;
+  if (info_.kind == "processor") return 160;
+  return job_.patterns ? 64 : 12;
+}
+
 std::uint32_t AdaptiveFrame::flags() const {
   std::uint32_t bits = job_.iris.is_circle() ? kCircle : 0U;
   if (job_.dirt) bits |= job_.dirt->on_front ? kDirtOnFront : kDirtInStop;
@@ -393,6 +403,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.level = kSearchLevels;
   p.flags = flags();
   p.picture = has_picture() ? job_.patterns->picture + 1 : 0U;
+  p.small_px = small_px();
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
   p.least_peak = static_cast<float>(job_.least_peak);

@@ -69,6 +69,7 @@ class AdaptiveFrame {
   void fill_tiles();
   [[nodiscard]] std::uint64_t sums_bytes() const;
   [[nodiscard]] std::uint32_t flags() const;
+  [[nodiscard]] std::int32_t small_px() const;  // of AdaptiveParameters
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
   [[nodiscard]] bool has_picture() const { return job_.patterns && job_.patterns->picture != DevicePatterns::kNone; }
   // The shader for frames with dirt or a picture as the iris, or for those without.

@@ -18,6 +18,7 @@ struct AdaptiveParameters {
   std::uint32_t ray_capacity = 0, large_capacity = 0, corner_capacity = 0, cut_capacity = 0;
   float budget = 0, least_peak = 0, front_gap_mm = 0;
   std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
+  std::int32_t small_px = 0;
 };
 
 // Bits of the flags, besides kCircle.

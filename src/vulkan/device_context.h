@@ -77,7 +77,16 @@ inline constexpr std::array kTexelSlots{TexelSlot{Slot::Tables, vk::Format::eR32
                                         TexelSlot{Slot::Large, vk::Format::eR32G32B32A32Uint, 16},
                                         TexelSlot{Slot::LargeCorners, vk::Format::eR32G32Sfloat, 8},
                                         TexelSlot{Slot::TileLists, vk::Format::eR32Uint, 4},
-                                        TexelSlot{Slot::Blocks, vk::Format::eR32Sfloat, 4}};
+                                        TexelSlot{Slot::Blocks, vk::Format::eR32Sfloat, 4},
+                                        TexelSlot{Slot::Floats, vk::Format::eR32G32B32A32Sfloat, 16},
+                                        TexelSlot{Slot::Integers, vk::Format::eR32G32B32A32Sint, 16},
+                                        TexelSlot{Slot::Items, vk::Format::eR32G32B32A32Uint, 16},
+                                        TexelSlot{Slot::Starts, vk::Format::eR32G32B32A32Sfloat, 16},
+                                        TexelSlot{Slot::States, vk::Format::eR32G32B32A32Sfloat, 16},
+                                        TexelSlot{Slot::Offsets, vk::Format::eR32Uint, 4},
+                                        TexelSlot{Slot::CutCells, vk::Format::eR32G32Uint, 8}};
+// Every device lets a stage read 16 (maxPerStageDescriptorSampledImages).
+static_assert(kTexelSlots.size() <= 16);
 // Slots that trace.comp reads as uniform buffers, from a grid's path on.
 inline constexpr std::array kPathSlots{Slot::Floats, Slot::Doubles, Slot::Integers};
 inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has

@@ -68,14 +68,7 @@ void upload_paths(DeviceContext& device, const PathData& data) {
   device.write_first(Slot::Floats, data.floats());
   device.write_first(Slot::Doubles, data.doubles());
   device.write_first(Slot::Integers, data.integers());
-  // Each value with the next, as rays interpolate between them.
-  std::vector<float> pairs;
-  pairs.reserve(2 * data.tables().size());
-  for (std::size_t k = 0; k < data.tables().size(); ++k) {
-    pairs.push_back(data.tables()[k]);
-    pairs.push_back(data.tables()[std::min(k + 1, data.tables().size() - 1)]);
-  }
-  device.upload(Slot::Tables, pairs);
+  device.upload(Slot::Tables, data.table_pairs());
 }
 
 void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceGrid& grid, const PathPlace& place,
@@ -153,7 +146,7 @@ void GridFrame::prepare(const Frame& band) {
   upload_paths(device_, data);
   device_.upload(Slot::Bounds, bounds);
   work_.uploaded_bytes +=
-      4 * (data.floats().size() + data.integers().size() + 2 * data.tables().size() + bounds.size()) +
+      4 * (data.floats().size() + data.integers().size() + data.table_pairs().size() + bounds.size()) +
       8 * data.doubles().size();
 }
 

@@ -10,6 +10,8 @@ namespace contrejour::inline internal::vulkan {
 namespace {
 
 constexpr std::size_t kGridReals = 14, kPathReals = 4, kStepReals = 20, kStepIntegers = 8;
+constexpr std::size_t kTexelNumbers = 4;
+static_assert(kPathReals % kTexelNumbers == 0 && kStepReals % kTexelNumbers == 0 && kStepIntegers % kTexelNumbers == 0);
 // The bits of a step's first word beside its event, as in shaders/trace.glsl.
 enum StepFlags : std::int32_t { kFromDenser = 4, kBlocksWithin = 8, kGeneral = 16, kBackwards = 32, kComplement = 64 };
 constexpr int kCrossingShift = 7;
@@ -109,7 +111,20 @@ PathPlace PathData::add(const DeviceGrid& grid, const PixelMap& map, Parameters&
   return place;
 }
 
-PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) { return append(path, precision, 0); }
+PathPlace PathData::add(const PacketPath& path, PacketPrecision precision) {
+  append(std::vector<double>((kTexelNumbers - size(precision) % kTexelNumbers) % kTexelNumbers), precision);
+  return append(path, precision, 0);
+}
+
+std::vector<float> PathData::table_pairs() const {
+  std::vector<float> pairs;
+  pairs.reserve(2 * tables_.size());
+  for (std::size_t k = 0; k < tables_.size(); ++k) {
+    pairs.push_back(tables_[k]);
+    pairs.push_back(tables_[std::min(k + 1, tables_.size() - 1)]);
+  }
+  return pairs;
+}
 
 // origin: what the places of shapes count from.
 PathPlace PathData::append(const PacketPath& path, PacketPrecision precision, std::size_t origin) {

@@ -60,6 +60,7 @@ struct PathPlace {
 // The numbers of many paths, as they are uploaded.
 class PathData {
  public:
+  // Appends a path, whose places are multiples of 4: shaders read texels of four numbers.
   [[nodiscard]] PathPlace add(const PacketPath& path, PacketPrecision precision);
   // Appends a grid's start and path, whose places are multiples of kPathAlignment, and sets the members of a dispatch
   // that describe the path. The numbers refer to each other from the place on.
@@ -68,7 +69,8 @@ class PathData {
   [[nodiscard]] const std::vector<float>& floats() const { return floats_; }
   [[nodiscard]] const std::vector<double>& doubles() const { return doubles_; }
   [[nodiscard]] const std::vector<std::int32_t>& integers() const { return integers_; }
-  [[nodiscard]] const std::vector<float>& tables() const { return tables_; }
+  // Each reflectance with the next, as rays interpolate between them.
+  [[nodiscard]] std::vector<float> table_pairs() const;
 
  private:
   [[nodiscard]] PathPlace append(const PacketPath& path, PacketPrecision precision, std::size_t origin);

@@ -3,16 +3,12 @@
 #define FAILED 3.0e38  // relative height of a ray that fails
 #define MAX_CROSSINGS 3
 
-layout(std430, set = 0, binding = 0) readonly buffer Floats { float floats[]; };    // of paths, in float
-layout(std430, set = 0, binding = 1) readonly buffer Integers { int integers[]; };  // of paths
-layout(std430, set = 0, binding = 2) readonly buffer Tables { float tables[]; };    // reflectances
 // By ray: pixel coordinates, transmission (of grids times Parameters::triangle_weight), relative height.
 layout(std430, set = 0, binding = 3) buffer Rays { vec4 rays[]; };
 layout(std430, set = 0, binding = 4) buffer Crossings { vec2 crossings[]; };  // MAX_CROSSINGS a ray, stop radii
 layout(std430, set = 0, binding = 5) buffer Sums { uint sums[]; };            // low and high words by pixel
 layout(std430, set = 0, binding = 6) buffer Counters { uint counters[]; };    // counts.glsl
 layout(std430, set = 0, binding = 7) buffer Picture { float picture[]; };
-layout(std430, set = 0, binding = 8) readonly buffer Bounds { float bounds[]; };  // of the iris, 8 each
 layout(std430, set = 0, binding = 9) buffer Large { uint large[]; };              // 16 words a polygon
 layout(std430, set = 0, binding = 10) buffer LargeCorners { vec2 large_corners[]; };
 layout(std430, set = 0, binding = 11) buffer Blocks { float blocks[]; };  // of merged cells
@@ -25,15 +21,17 @@ layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
 layout(std430, set = 0, binding = 28) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/task.glsl
 // The buffers above under other names, for shaders that read what others have written. lavapipe reads these for all
 // invocations at once, and storage buffers in a loop over them. A shader that writes a buffer reads it by its own name.
-layout(set = 0, binding = 31) uniform samplerBuffer table_texels;  // by value: it and the next
+layout(set = 0, binding = 31) uniform samplerBuffer table_texels;  // by value of reflectances: it and the next
 layout(set = 0, binding = 32) uniform samplerBuffer ray_texels;
 layout(set = 0, binding = 33) uniform samplerBuffer crossing_texels;
 layout(set = 0, binding = 34) uniform samplerBuffer vertex_texels;
-layout(set = 0, binding = 35) uniform samplerBuffer bound_texels;  // two a bound
+layout(set = 0, binding = 35) uniform samplerBuffer bound_texels;  // of the iris, two a bound
 layout(set = 0, binding = 36) uniform usamplerBuffer large_texels;  // four a polygon
 layout(set = 0, binding = 37) uniform samplerBuffer corner_texels;
 layout(set = 0, binding = 38) uniform usamplerBuffer list_texels;
 layout(set = 0, binding = 39) uniform samplerBuffer block_texels;
+layout(set = 0, binding = 40) uniform samplerBuffer float_texels;     // of paths: numbers, four a texel
+layout(set = 0, binding = 41) uniform isamplerBuffer integer_texels;  // of paths, four a texel
 #ifdef DOUBLE
 #define real double
 #else
@@ -48,7 +46,6 @@ bool failed(vec4 ray) { return ray.w >= 0.5 * FAILED; }
 vec4 ray_of(uint ray) { return texelFetch(ray_texels, int(ray)); }
 vec2 vertex_of(uint ray) { return texelFetch(vertex_texels, int(ray)).xy; }
 vec2 crossing(uint ray, uint c) { return texelFetch(crossing_texels, int(ray * MAX_CROSSINGS + c)).xy; }
-vec4 bound_half(uint k) { return texelFetch(bound_texels, int(k)); }  // two halves a bound
 uvec4 large_quarter(uint k) { return texelFetch(large_texels, int(k)); }  // four quarters a polygon
 vec2 large_corner(uint k) { return texelFetch(corner_texels, int(k)).xy; }
 #else
@@ -57,8 +54,8 @@ vec2 vertex_of(uint ray) { return vertices[ray]; }
 vec2 crossing(uint ray, uint c) { return crossings[ray * MAX_CROSSINGS + c]; }
 uvec4 large_quarter(uint k) { return uvec4(large[4u * k], large[4u * k + 1u], large[4u * k + 2u], large[4u * k + 3u]); }
 vec2 large_corner(uint k) { return large_corners[k]; }
-vec4 bound_half(uint k) { return vec4(bounds[4u * k], bounds[4u * k + 1u], bounds[4u * k + 2u], bounds[4u * k + 3u]); }
 #endif
+vec4 bound_half(uint k) { return texelFetch(bound_texels, int(k)); }  // two halves a bound
 float irradiance_at(uint ray) { return vertex_of(ray).x; }  // 0 where the map is not smooth
 bool passes(uint ray) { return vertex_of(ray).y <= 0.0; }
 

@@ -3,9 +3,9 @@
 #define MAX_CORNERS 40
 #define MAX_TANGENTS 12
 
-vec2 polygon[MAX_CORNERS];  // in (u, v) of a triangle, then in pixels relative to a base
-int corner_count;
-vec2 next_polygon[MAX_CORNERS];
+// In (u, v) of a triangle, then in pixels relative to a base. Between cuts it lies in either half.
+vec2 polygon[2 * MAX_CORNERS];
+int corner_count, first_corner = 0;
 
 // The triangle of rays that is clipped: relative heights, and where the rays cross the stop.
 float heights_of_triangle[3];
@@ -14,16 +14,25 @@ vec2 stops_of_triangle[MAX_CROSSINGS][3];
 // Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
 void cut(float at_0, float at_1, float at_2) {
   if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
-  int count = 0;
+  int count = 0, to = first_corner == 0 ? MAX_CORNERS : 0;
+  vec2 a = polygon[first_corner];
+  float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
   for (int k = 0; k < corner_count; ++k) {
-    vec2 a = polygon[k], b = polygon[k + 1 == corner_count ? 0 : k + 1];
-    float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
+    vec2 b = polygon[first_corner + (k + 1 == corner_count ? 0 : k + 1)];
     float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
-    if (fa <= 0.0 && count < MAX_CORNERS) next_polygon[count++] = a;
-    if ((fa <= 0.0) != (fb <= 0.0) && count < MAX_CORNERS) next_polygon[count++] = a + (b - a) * (fa / (fa - fb));
+    if (fa <= 0.0 && count < MAX_CORNERS) polygon[to + count++] = a;
+    if ((fa <= 0.0) != (fb <= 0.0) && count < MAX_CORNERS) polygon[to + count++] = a + (b - a) * (fa / (fa - fb));
+    a = b;
+    fa = fb;
   }
-  for (int k = 0; k < count; ++k) polygon[k] = next_polygon[k];
+  first_corner = to;
   corner_count = count;
+}
+
+void end_cuts() {
+  if (first_corner != 0)
+    for (int k = 0; k < corner_count; ++k) polygon[k] = polygon[first_corner + k];
+  first_corner = 0;
 }
 
 void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
@@ -47,11 +56,23 @@ void clip_by_circle(vec2 stop[3], vec2 centre, float radius) {
   }
 }
 
+bool is_beyond(uint b, vec2 stop[3]) {
+  return bound_distance(b, stop[0]) > 0.0 || bound_distance(b, stop[1]) > 0.0 || bound_distance(b, stop[2]) > 0.0;
+}
+
 void clip_by_bound(vec2 stop[3], uint b) {
-  if (is_straight(b)) {
+  if (is_straight(b))
     clip_by_edge(stop, bound_normal(b), bound_apothem(b));
-  } else if (bound_distance(b, stop[0]) > 0.0 || bound_distance(b, stop[1]) > 0.0 || bound_distance(b, stop[2]) > 0.0) {
+  else
     clip_by_circle(stop, bound_centre(b), bound_radius(b));
+}
+
+// Bounds are found before they clip, 32 at a time: lavapipe clips in all turns of a loop in which one invocation does.
+void clip_by_bounds(vec2 stop[3]) {
+  for (uint from = 0u; from < p.bound_count; from += 32u) {
+    uint left = 0u, count = min(p.bound_count - from, 32u);
+    for (uint k = 0u; k < count; ++k) left |= is_beyond(from + k, stop) ? 1u << k : 0u;
+    for (; left != 0u; left &= left - 1u) clip_by_bound(stop, from + uint(findLSB(left)));
   }
 }
 
@@ -61,14 +82,15 @@ void clip_by_iris(uint c) {
   if ((p.flags & FLAG_CIRCLE) != 0u) {
     clip_by_circle(stop, vec2(0.0), 1.0);
   } else {
-    for (uint b = 0u; b < p.bound_count; ++b) clip_by_bound(stop, b);
+    clip_by_bounds(stop);
   }
 }
 
 void set_triangle(uvec3 t, uint crossing_count) {
   for (int k = 0; k < 3; ++k) {
     heights_of_triangle[k] = ray_of(t[k]).w;
-    for (uint c = 0u; c < crossing_count; ++c) stops_of_triangle[c][k] = crossing(t[k], c);
+    for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+      if (c < crossing_count) stops_of_triangle[c][k] = crossing(t[k], c);
   }
 }
 
@@ -84,13 +106,16 @@ void begin_triangle() {
 void clip_triangle(uint crossing_count) {
   cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
   for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_iris(c);
+  end_cuts();
 }
 
 float twice_polygon_area() {
   float twice = 0.0;
+  vec2 origin = polygon[0], a = polygon[1] - origin;
   for (int k = 2; k < corner_count; ++k) {
-    vec2 a = polygon[k - 1] - polygon[0], b = polygon[k] - polygon[0];
+    vec2 b = polygon[k] - origin;
     twice += a.x * b.y - a.y * b.x;
+    a = b;
   }
   return twice;
 }

@@ -9,6 +9,8 @@
 #define TABLE_INTERVALS 2048
 #define BEYOND_EQUATOR_SQUARED 4.0
 
+// The path's numbers may be given as step_quarter(step, k) and step_words(step, k), four at a time, with PATH_QUARTERS.
+
 // A path, then its steps: numbers as written by layout.cpp.
 #define PATH_REALS 4u
 #define STEP_REALS 20u
@@ -38,8 +40,13 @@ struct PacketState {
   bool alive;
 };
 
+#ifdef PATH_QUARTERS
+real step_real(uint step, int k) { return step_quarter(step, k >> 2)[k & 3]; }
+int step_integer(uint step, int k) { return step_words(step, k >> 2)[k & 3]; }
+#else
 real step_real(uint step, int k) { return path_number(path_reals + PATH_REALS + step * STEP_REALS + uint(k)); }
 int step_integer(uint step, int k) { return path_word(path_integers + step * STEP_INTEGERS + uint(k)); }
+#endif
 // The sensor's gap and offset; 1 over the stop's radius.
 real path_real(int k) { return path_number(path_reals + uint(k)); }
 

@@ -9,6 +9,7 @@
 // An open cell is drawn with straight sides (cells.comp). Points of a side that it shares lie on a straight line here,
 // too, so that no seam shows.
 uint around[12];
+vec4 rays_around[12];
 bool exists[12];
 bvec4 side_is_straight;  // the side below, above, on the left, on the right
 
@@ -26,7 +27,8 @@ void find_around() {
     ivec2 at = cell + kAround[k];
     bool inside = at.x >= 0 && at.y >= 0 && at.x < int(side) && at.y < int(side);
     around[k] = inside ? ray_at(uint(at.x), uint(at.y)) : 0u;
-    exists[k] = inside && !failed(rays[around[k]]);
+    rays_around[k] = ray_of(around[k]);
+    exists[k] = inside && !failed(rays_around[k]);
   }
   bool open[12];
   for (int k = 0; k < 12; ++k) open[k] = exists[k] && passes(around[k]);
@@ -87,14 +89,6 @@ void set_weights(vec2 at, bool along_row, bool along_column) {
 
 vec4 ray_between() {
   vec4 sum = vec4(0.0);
-  for (int k = 0; k < 12; ++k)
-    if (weights[k] != 0.0) sum += weights[k] * rays[around[k]];
-  return sum;
-}
-
-vec2 crossing_between(uint c) {
-  vec2 sum = vec2(0.0);
-  for (int k = 0; k < 12; ++k)
-    if (weights[k] != 0.0) sum += weights[k] * crossing(around[k], c);
+  for (int k = 0; k < 12; ++k) sum += weights[k] != 0.0 ? weights[k] * rays_around[k] : vec4(0.0);
   return sum;
 }

@@ -103,6 +103,7 @@ void merge(uint group, float allowed_by_root, float allowed_sharp) {
   uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
   vec3 gain = item_gain(middle);
   mat2x3 slopes = item_gain_slopes(middle);
+  vec4 box = final_box(group);
   for (uint item = first; item < first + count; ++item) {
     uint word = STATE_WORDS * item;
     uvec2 cells_and_parts = cells_for(item, allowed_by_root);
@@ -117,6 +118,7 @@ void merge(uint group, float allowed_by_root, float allowed_sharp) {
       cells = 0u;
     }
     states[word + STATE_CELLS] = uintBitsToFloat(cells);
+    for (uint k = 0u; k < 4u; ++k) states[word + STATE_BOX + k] = box[k];
     states[word + STATE_PARTS] = uintBitsToFloat(cells_and_parts.y);
     set_gains(item, item_gain(item), item_gain_slopes(item));
     uint pattern = item_pattern(item);

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#define READ_TEXELS
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
@@ -34,8 +35,8 @@ bool list_open(uvec4 v) {
 
 // Parts are no smaller than half a pixel.
 uint cut_parts(uvec4 v) {
-  vec2 low = min(min(rays[v.x].xy, rays[v.y].xy), min(rays[v.z].xy, rays[v.w].xy));
-  vec2 high = max(max(rays[v.x].xy, rays[v.y].xy), max(rays[v.z].xy, rays[v.w].xy));
+  vec2 low = min(min(ray_of(v.x).xy, ray_of(v.y).xy), min(ray_of(v.z).xy, ray_of(v.w).xy));
+  vec2 high = max(max(ray_of(v.x).xy, ray_of(v.y).xy), max(ray_of(v.z).xy, ray_of(v.w).xy));
   uint halves = uint(min(2.0 * max(high.x - low.x, high.y - low.y) + 1.0, 1.0e4));
   return clamp(min(floatBitsToUint(state(item, STATE_PARTS)), halves), 1u, MOST_CUT_PARTS);
 }
@@ -53,12 +54,12 @@ void list_cut(uint parts) {
 void main() {
   if (!find_ray() || own % side + 1u == side || own / side + 1u == side) return;
 #ifdef OCCLUDERS
-  grid_box = final_box(group_of(item));
+  grid_box = state_box(item);
 #endif
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
   int how = patterned_state(v, crossings_of(item), pattern_of(item));
   if (how == STATE_CLOSED) return;
-  bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
+  bool any_failed = failed(ray_of(v.x)) || failed(ray_of(v.y)) || failed(ray_of(v.z)) || failed(ray_of(v.w));
   if (!any_failed && outside_frame(v)) return;
   set_cell(v);
 #ifdef OCCLUDERS

@@ -10,7 +10,6 @@
 #define STATE_WORDS 24u
 #define LEVELS 6u  // of the search for the pupil, at most
 
-layout(std430, set = 0, binding = 14) readonly buffer Items { uint items[]; };
 layout(std430, set = 0, binding = 15) readonly buffer Groups { uint groups[]; };
 // By group and level: the box that is searched, lower corner and size, mm from the window's lower corner; and the bounds
 // of its cells through which light passes, then of those through which it may pass, which count where there are no
@@ -22,7 +21,11 @@ layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by
 layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
 layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
 layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
-layout(std430, set = 0, binding = 25) readonly buffer Starts { float starts[]; };  // 14 a light
+layout(set = 0, binding = 42) uniform usamplerBuffer item_texels;   // six an item
+layout(set = 0, binding = 43) uniform samplerBuffer start_texels;   // four a light
+layout(set = 0, binding = 44) uniform samplerBuffer state_texels;   // six an item
+layout(set = 0, binding = 45) uniform usamplerBuffer offset_texels;
+layout(set = 0, binding = 46) uniform usamplerBuffer cut_texels;
 
 // Whether the iris is a picture: the code for it is long, and other frames are compiled without.
 layout(constant_id = 1) const bool HAS_PICTURE = false;
@@ -36,6 +39,7 @@ layout(push_constant) uniform Parameters {
   float least_peak;     // that errors are relative to
   float front_gap;      // from the entrance plane to that of dirt on the front, mm
   uint picture;         // as the iris: its pattern's number, of which the next one is its distances; 0: none
+  int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
 }
 p;
 
@@ -50,7 +54,7 @@ p;
 #define CUT_FINENESS 16.0  // parts of cut cells a side of the grid, at least
 #define MOST_CUT_PARTS 4u
 
-uint item_word(uint item, uint k) { return items[ITEM_WORDS * item + k]; }
+uint item_word(uint item, uint k) { return texelFetch(item_texels, int(ITEM_WORDS / 4u * item + (k >> 2u)))[k & 3u]; }
 float item_float(uint item, uint k) { return uintBitsToFloat(item_word(item, k)); }
 uint group_of(uint item) { return item_word(item, 3u); }
 uint crossings_of(uint item) { return item_word(item, 4u); }
@@ -80,7 +84,7 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 // one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the
 // other, relative to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the
 // items that are drawn by it; the squared error of drawing its stop pattern as the sharp iris, and the pattern that is
-// drawn.
+// drawn; the box in which its rays are traced.
 #define STATE_ERROR 0u
 #define STATE_MERGED_ERROR 1u
 #define STATE_FLUX 2u
@@ -92,11 +96,22 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 #define STATE_PARTS 10u
 #define STATE_SHARP_ERROR 11u
 #define STATE_PATTERN 12u
-#define STATE_SLOPES 16u  // of the gains: by x, then by y
+#define STATE_BOX 13u     // lower corner, size
+#define STATE_SLOPES 17u  // of the gains: by x, then by y
 #define COARSE_CELLS 15u
+#ifdef READ_TEXELS
+float state(uint item, uint k) { return texelFetch(state_texels, int(STATE_WORDS / 4u * item + (k >> 2u)))[k & 3u]; }
+uint offset_of(uint item) { return texelFetch(offset_texels, int(item)).x; }
+#else
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
+uint offset_of(uint item) { return offsets[item]; }
+#endif
 float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
+vec4 state_box(uint item) {
+  return vec4(state(item, STATE_BOX), state(item, STATE_BOX + 1u), state(item, STATE_BOX + 2u),
+              state(item, STATE_BOX + 3u));
+}
 uint pattern_of(uint item) { return floatBitsToUint(state(item, STATE_PATTERN)); }
 // The gains at a place in the window, mm.
 vec3 state_gain(uint item, vec2 at) {
@@ -130,7 +145,7 @@ vec4 box_of_level(uint group, uint level) {
   return narrowed;
 }
 
-// The box in which a group's rays are traced.
+// The box in which a group's rays are traced. Later it is in the state of each item: state_box().
 vec4 final_box(uint group) {
   const float margin = 0.04;
   vec4 box = box_of_level(group, p.level);
@@ -142,7 +157,7 @@ uint item_of_block(uint block) {
   uint low = 0u, high = p.item_count;
   while (low + 1u < high) {
     uint middle = (low + high) / 2u;
-    if (offsets[middle] <= block)
+    if (offset_of(middle) <= block)
       low = middle;
     else
       high = middle;

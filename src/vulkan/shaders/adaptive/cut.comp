@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#define READ_TEXELS
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
@@ -133,11 +134,13 @@ bool set_pattern_map() {
 void find_occluders() { is_dimmed = pattern != 0u; }
 #endif
 
-void list_part(float flux, float fraction, vec2 gradient) {
+// low, high: the polygon's bounds.
+void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
   float area = triangle_px();
-  bool is_point = in_one_pixel();
-  vec2 from, to;
-  farthest_corners(from, to);
+  bool is_point = floor(low) == floor(high);
+  vec2 from = low, to = low;
+  // The corners are compared in pairs only if the polygon is thin for its bounds.
+  if (area < SLIVER * dot(high - low, high - low)) farthest_corners(from, to);
   bool is_line = area < SLIVER * dot(to - from, to - from);
 #ifdef OCCLUDERS
   if (is_dimmed) flux *= set_occluders(is_point, is_line);
@@ -153,7 +156,7 @@ void list_part(float flux, float fraction, vec2 gradient) {
     return;
   }
   float value = flux / area;
-  list_polygon(Density((pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0), value, gradient * value));
+  list_polygon(Density((pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0), value, gradient * value), low, high);
 }
 
 void list_triangle(vec2 gradient) {
@@ -166,14 +169,35 @@ void list_triangle(vec2 gradient) {
     for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
     find_middle(fraction);
   }
-  for (int k = 0; k < corner_count; ++k)
-    polygon[k] = pixels[0] + (pixels[1] - pixels[0]) * polygon[k].x + (pixels[2] - pixels[0]) * polygon[k].y;
-  list_part(triangle_weight * (transmissions.x + transmissions.y + transmissions.z) / 3.0, fraction, gradient);
+  vec2 low = vec2(FAILED), high = vec2(-FAILED);
+  for (int k = 0; k < corner_count; ++k) {
+    vec2 at = polygon[k];
+    at = pixels[0] + (pixels[1] - pixels[0]) * at.x + (pixels[2] - pixels[0]) * at.y;
+    polygon[k] = at;
+    low = min(low, at);
+    high = max(high, at);
+  }
+  list_part(triangle_weight * (transmissions.x + transmissions.y + transmissions.z) / 3.0, fraction, gradient, low,
+            high);
+}
+
+// Sets where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
+void set_stops(float weights_of[3][12]) {
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
+    if (c >= crossings_of(item)) continue;
+    vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    for (int j = 0; j < 12; ++j) {
+      vec2 at = crossing(around[j], c);
+      for (int k = 0; k < 3; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
+    }
+    for (int k = 0; k < 3; ++k) stops_of_triangle[c][k] = sum[k];
+  }
 }
 
 // Sets the corners of half a part of the cell.
 void set_part(vec2 low, float size, bool is_second) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
+  float weights_of[3][12];
   for (int k = 0; k < 3; ++k) {
     vec2 at = low + size * corners[k == 0 ? 0 : is_second ? k + 1 : k];
 #ifdef OCCLUDERS
@@ -183,18 +207,19 @@ void set_part(vec2 low, float size, bool is_second) {
     vec4 ray = ray_between();
     transmissions[k] = max(ray.z, 0.0);
     heights_of_triangle[k] = ray.w;
-    for (uint c = 0u; c < crossings_of(item); ++c) stops_of_triangle[c][k] = crossing_between(c);
+    weights_of[k] = weights;
     if (is_on_straight_row(at) || is_on_straight_column(at)) {
       set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
       ray.xy = ray_between().xy;
     }
     pixels[k] = ray.xy - vec2(base);
   }
+  set_stops(weights_of);
 }
 
 bool set_whole(uvec3 t) {
   for (int k = 0; k < 3; ++k) {
-    vec4 ray = rays[t[k]];
+    vec4 ray = ray_of(t[k]);
     if (failed(ray)) return false;
     pixels[k] = ray.xy - vec2(base);
     transmissions[k] = ray.z;
@@ -209,21 +234,21 @@ bool set_whole(uvec3 t) {
 void main() {
   uint k = linear_group() * 64u + gl_LocalInvocationID.x;
   if (k / 2u >= min(counters[COUNT_CUT], p.cut_capacity)) return;
-  uvec2 part = cut_cells[k / 2u];
+  uvec2 part = texelFetch(cut_texels, int(k / 2u)).xy;
   item = part.x;
   own = part.y & CUT_CELL_MASK;
   uint parts = 1u + (part.y >> CUT_PARTS_SHIFT), number = (part.y >> CUT_PART_SHIFT) & 15u;
   side = cells_of(item) + 1u;
-  first_ray = 64u * offsets[item];
+  first_ray = 64u * offset_of(item);
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
   set_cell(v);
   pattern = pattern_of(item);
 #ifdef OCCLUDERS
-  grid_box = final_box(group_of(item));
+  grid_box = state_box(item);
 #endif
-  bool any_failed = failed(rays[v.x]) || failed(rays[v.y]) || failed(rays[v.z]) || failed(rays[v.w]);
+  bool any_failed = failed(ray_of(v.x)) || failed(ray_of(v.y)) || failed(ray_of(v.z)) || failed(ray_of(v.w));
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
-  float area = any_failed ? 0.0 : 0.5 * cross2(rays[v.z].xy - rays[v.x].xy, rays[v.w].xy - rays[v.y].xy);
+  float area = any_failed ? 0.0 : 0.5 * cross2(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy);
   bool is_shaded = all(greaterThan(e, vec4(0.0))) && abs(area) >= SHADED_CELL_PX;
   vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
   bool is_second = k % 2u != 0u;

@@ -9,8 +9,8 @@ bool find_ray() {
   if (block >= counters[COUNT_BLOCKS]) return false;
   item = item_of_block(block);
   side = cells_of(item) + 1u;
-  first_ray = 64u * offsets[item];
-  own = 64u * (block - offsets[item]) + gl_LocalInvocationID.x;
+  first_ray = 64u * offset_of(item);
+  own = 64u * (block - offset_of(item)) + gl_LocalInvocationID.x;
   return own < side * side;
 }
 uint ray_at(uint ix, uint iy) { return first_ray + iy * side + ix; }

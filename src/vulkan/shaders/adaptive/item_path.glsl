@@ -6,15 +6,22 @@
 uint path_item;
 
 float start_real(int k) { return start_real_of(path_item, k); }
-float path_number(uint k) { return floats[k]; }
-int path_word(uint k) { return integers[k]; }
-vec2 table_pair(int k) { return vec2(tables[k], tables[k + 1]); }
+float path_number(uint k) { return texelFetch(float_texels, int(k >> 2u))[k & 3u]; }
+vec2 table_pair(int k) { return texelFetch(table_texels, k).xy; }
+
+// Items of a dispatch have different paths, whose numbers are therefore texels rather than uniforms. A path begins at a
+// whole texel, and a step at a sphere is one texel of each kind.
+uint first_step_texel, first_word_texel;
+vec4 step_quarter(uint step, int k) { return texelFetch(float_texels, int(first_step_texel + 5u * step) + k); }
+ivec4 step_words(uint step, int k) { return texelFetch(integer_texels, int(first_word_texel + 2u * step) + k); }
+#define PATH_QUARTERS
 
 #include "../trace.glsl"
 
 void set_path(uint item) {
   path_item = item;
   path_reals = item_word(item, 0u);
-  path_integers = item_word(item, 1u);
+  first_step_texel = (path_reals + PATH_REALS) / 4u;
+  first_word_texel = item_word(item, 1u) / 4u;
   path_steps = item_word(item, 2u);
 }

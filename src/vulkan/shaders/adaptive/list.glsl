@@ -19,7 +19,7 @@
 
 float triangle_weight;  // flux of half a cell of transmission 1
 vec3 gain;
-float triangle_flux(uvec3 t) { return triangle_weight * (rays[t.x].z + rays[t.y].z + rays[t.z].z) / 3.0; }
+float triangle_flux(uvec3 t) { return triangle_weight * (ray_of(t.x).z + ray_of(t.y).z + ray_of(t.z).z) / 3.0; }
 
 // The frame's pixels within bounds, as (first, last); false if there are none. The bounds are clamped before they are
 // converted: a ghost may be far larger than an integer.
@@ -62,12 +62,8 @@ int begin_record(Density density, uint count, ivec4 box) {
   return int(first);
 }
 
-void list_polygon(Density density) {
-  vec2 low = polygon[0], high = polygon[0];
-  for (int k = 1; k < corner_count; ++k) {
-    low = min(low, polygon[k]);
-    high = max(high, polygon[k]);
-  }
+// low, high: the polygon's bounds.
+void list_polygon(Density density, vec2 low, vec2 high) {
   ivec4 box;
   if (!pixels_of(low, high, box)) return;
   int first = begin_record(density, uint(corner_count), box);

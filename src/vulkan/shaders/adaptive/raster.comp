@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
+#define READ_TEXELS
 #include "common.glsl"
 #include "../lists/record.glsl"
 #include "../lists/task.glsl"
@@ -20,13 +21,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 // Edges are taken in fours rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so
 // that the last polygons of crowded tiles would be missing.
-
-// The most pixels of a polygon that one invocation draws by itself.
-#ifdef PATTERNS
-#define SMALL_PX 64  // the pattern is dearer than the sums
-#else
-#define SMALL_PX 12
-#endif
 
 shared uint tile_sums[TILE_WORDS];
 shared uint plane_sums[18];  // of polygons that cover the tile: value at the first pixel, slopes, by channel
@@ -90,29 +84,54 @@ float part_in_pixel(vec2 from, vec2 to) {
   return max(last - first, 0.0);
 }
 
-// Adds the area to the right of the edge that ends at a corner; past the last corner: of none, which is 0.
-void add_edge(uint first, uint count, uint k, vec2 pixel, inout vec2 before, inout float covered) {
-  vec2 here = large_corners[first + min(k, count - 1u)] - pixel;
-  covered += area_right_of(before, here);
-  before = here;
+// What is listed of a polygon, whose words are described in list.glsl.
+struct Polygon {
+  uvec4 density, point_and_gain, corners;
+};
+
+Polygon polygon_of(uint number) {
+  return Polygon(large_quarter(4u * number), large_quarter(4u * number + 1u), large_quarter(4u * number + 2u));
+}
+float value_of(Polygon q) { return uintBitsToFloat(q.density.x); }
+vec2 gradient_of(Polygon q) { return uintBitsToFloat(q.density.yz); }
+vec2 point_of(Polygon q) { return vec2(uintBitsToFloat(q.density.w), uintBitsToFloat(q.point_and_gain.x)); }
+vec3 gain_of(Polygon q) { return uintBitsToFloat(q.point_and_gain.yzw); }
+uint first_of(Polygon q) { return q.corners.x; }
+ivec2 base_of(Polygon q) { return ivec2(q.corners.zw); }
+
+// Four corners from a place in large_corners on; past the last one, this again.
+struct Corners {
+  vec2 a, b, c, d;
+};
+Corners corners_from(uint first, uint count) {
+  uint last = first + count - 1u;
+  return Corners(large_corner(first), large_corner(min(first + 1u, last)), large_corner(min(first + 2u, last)),
+                 large_corner(min(first + 3u, last)));
 }
 
-// The part of a pixel that a polygon covers, exactly.
-float covered_part(uint first, uint count, vec2 pixel) {
-  float covered = 0.0;
-  vec2 before = large_corners[first + count - 1u] - pixel;
-  for (uint k = 0u; k < count; k += 4u) {
-    add_edge(first, count, k, pixel, before, covered);
-    add_edge(first, count, k + 1u, pixel, before, covered);
-    add_edge(first, count, k + 2u, pixel, before, covered);
-    add_edge(first, count, k + 3u, pixel, before, covered);
+// The areas to the right of the edges from a point to four corners, one after the other.
+float area_right_of_four(vec2 before, Corners q, vec2 pixel) {
+  vec2 a = q.a - pixel, b = q.b - pixel, c = q.c - pixel, d = q.d - pixel;
+  return area_right_of(before - pixel, a) + area_right_of(a, b) + area_right_of(b, c) + area_right_of(c, d);
+}
+
+// The part of a pixel that a polygon covers, exactly. corners: the first four; last: the last one.
+float covered_part(uint first, uint count, Corners corners, vec2 last, vec2 pixel) {
+  float covered = area_right_of_four(last, corners, pixel);
+  vec2 before = corners.d;
+  for (uint k = 4u; k < count; k += 4u) {
+    Corners more = corners_from(first + k, count - k);
+    covered += area_right_of_four(before, more, pixel);
+    before = more.d;
   }
   return max(-covered, 0.0);
 }
 
 // Only frames with stop patterns have polygons with them, whose numbers are in the high bits.
 #ifdef PATTERNS
-uint corners_in(uint word) { return word & CORNERS_MASK; }
+uint count_of(Polygon q) { return q.corners.y & CORNERS_MASK; }
+uint pattern_of(Polygon q) { return q.corners.y >> PATTERN_SHIFT; }  // or its mask
+uint map_of(Polygon q) { return first_of(q) + count_of(q); }  // where its maps begin in large_corners
 
 #ifdef OCCLUDERS
 #define POLYGON_MAP_CORNERS 12u
@@ -133,7 +152,7 @@ float product_at(uint mask, uint map, uint pattern, uint edge_bits, vec2 place, 
   float all = 1.0;
   for (uint k = 0u; k < POINTS; ++k) {
     if (!needs_point(mask, k, last)) continue;
-    vec2 x = large_corners[map], y = large_corners[map + 1u], at = large_corners[map + 2u] + x * place.x + y * place.y;
+    vec2 x = large_corner(map), y = large_corner(map + 1u), at = large_corner(map + 2u) + x * place.x + y * place.y;
     all *= transmittance_of_point(mask, k, last, pattern & ~(3u << LAST_SHIFT), edge_bits, at, size * x, size * y);
     map += 3u;
   }
@@ -141,11 +160,10 @@ float product_at(uint mask, uint map, uint pattern, uint edge_bits, vec2 place, 
 }
 
 // A polygon's transmittance in a pixel.
-float transmittance_of(uint polygon, vec2 corner) {
-  uint word = RECORD_WORDS * polygon, mask = large[word + 9u] >> PATTERN_SHIFT;
+float transmittance_of(Polygon q, vec2 corner) {
+  uint mask = pattern_of(q), map = map_of(q);
   if (mask == 0u) return 1.0;
-  uint map = large[word + 8u] + corners_in(large[word + 9u]);
-  uint edge_bits = floatBitsToUint(large_corners[map].x), pattern = floatBitsToUint(large_corners[map].y);
+  uint edge_bits = floatBitsToUint(large_corner(map).x), pattern = floatBitsToUint(large_corner(map).y);
   vec2 middle = corner + 0.5;
   partly_covering = 0u;
   float sum = 0.0;
@@ -185,27 +203,26 @@ float prepared_transmittance(uint j, vec2 place) {
 
 // Prepares the maps of a polygon, which begin at a corner.
 void prepare_maps(uint j, uint first, vec2 middle) {
-  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first].x);
-  pattern_words[j] = floatBitsToUint(large_corners[first].y);
+  edge_bits_of_polygons[j] = floatBitsToUint(large_corner(first).x);
+  pattern_words[j] = floatBitsToUint(large_corner(first).y);
   uint mask = patterns_of_polygons[j], from = first + 1u, to = POLYGON_MAP_CORNERS * j;
   for (uint k = 0u; k < POINTS; ++k) {
     if (!needs_point(mask, k, pattern_words[j] >> LAST_SHIFT)) continue;
-    vec2 x = large_corners[from], y = large_corners[from + 1u];
+    vec2 x = large_corner(from), y = large_corner(from + 1u);
     maps[to] = x;
     maps[to + 1u] = y;
-    maps[to + 2u] = large_corners[from + 2u] + x * middle.x + y * middle.y;
+    maps[to + 2u] = large_corner(from + 2u) + x * middle.x + y * middle.y;
     from += 3u;
     to += 3u;
   }
 }
 #else
-float transmittance_of(uint polygon, vec2 corner) {
-  uint word = RECORD_WORDS * polygon, pattern = large[word + 9u] >> PATTERN_SHIFT;
+float transmittance_of(Polygon q, vec2 corner) {
+  uint pattern = pattern_of(q), map = map_of(q);
   if (pattern == 0u) return 1.0;
-  uint map = large[word + 8u] + corners_in(large[word + 9u]);
-  vec2 x = large_corners[map], y = large_corners[map + 1u], middle = corner + 0.5;
-  return transmittance_at(pattern, large_corners[map + 2u] + x * middle.x + y * middle.y, x, y,
-                          floatBitsToUint(large_corners[map + 3u].x));
+  vec2 x = large_corner(map), y = large_corner(map + 1u), middle = corner + 0.5;
+  return transmittance_at(pattern, large_corner(map + 2u) + x * middle.x + y * middle.y, x, y,
+                          floatBitsToUint(large_corner(map + 3u).x));
 }
 
 float prepared_transmittance(uint j, vec2 place) {
@@ -215,49 +232,49 @@ float prepared_transmittance(uint j, vec2 place) {
 }
 
 void prepare_maps(uint j, uint first, vec2 middle) {
-  vec2 x = large_corners[first], y = large_corners[first + 1u];
-  edge_bits_of_polygons[j] = floatBitsToUint(large_corners[first + 3u].x);
+  vec2 x = large_corner(first), y = large_corner(first + 1u);
+  edge_bits_of_polygons[j] = floatBitsToUint(large_corner(first + 3u).x);
   maps[3u * j] = x;
   maps[3u * j + 1u] = y;
-  maps[3u * j + 2u] = large_corners[first + 2u] + x * middle.x + y * middle.y;
+  maps[3u * j + 2u] = large_corner(first + 2u) + x * middle.x + y * middle.y;
 }
 #endif
 #else
-uint corners_in(uint word) { return word; }
+uint count_of(Polygon q) { return q.corners.y; }
 #endif
 
-// The polygon's value in a pixel.
-float value_at(uint polygon, ivec2 pixel) {
-  uint word = RECORD_WORDS * polygon;
-  uint first = large[word + 8u], count = corners_in(large[word + 9u]);
-  vec2 corner = vec2(pixel - ivec2(int(large[word + 10u]), int(large[word + 11u])));
-  float value = record_float(polygon, 0u);
-  if (count == 1u) return value;
-  if (count == 2u) return value * part_in_pixel(large_corners[first] - corner, large_corners[first + 1u] - corner);
-  float covered = covered_part(first, count, corner);
+// The polygon's value in a pixel. corners, last: as for covered_part().
+float value_at(Polygon q, Corners corners, vec2 last, ivec2 pixel) {
+  uint count = count_of(q);
+  vec2 corner = vec2(pixel - base_of(q));
+  if (count == 1u) return value_of(q);
+  if (count == 2u) return value_of(q) * part_in_pixel(corners.a - corner, corners.b - corner);
+  float covered = covered_part(first_of(q), count, corners, last, corner);
   if (covered == 0.0) return 0.0;
-  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
-  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
 #ifdef PATTERNS
-  covered *= transmittance_of(polygon, corner);
+  covered *= transmittance_of(q, corner);
 #endif
-  return covered * (value + dot(gradient, corner + 0.5 - point));
+  return covered * (value_of(q) + dot(gradient_of(q), corner + 0.5 - point_of(q)));
 }
 
-vec3 gain_of(uint polygon) {
-  return vec3(record_float(polygon, 5u), record_float(polygon, 6u), record_float(polygon, 7u));
+vec2 last_corner(Polygon q) { return large_corner(first_of(q) + count_of(q) - 1u); }
+
+float value_at(uint number, ivec2 pixel) {
+  Polygon q = polygon_of(number);
+  return value_at(q, corners_from(first_of(q), count_of(q)), last_corner(q), pixel);
 }
 
-// Polygons of few pixels: an invocation draws one by itself, into sums of the tile in fixed point.
-void draw_small(uint polygon, ivec4 box) {
-  vec3 gain = gain_of(polygon) * fixed_units;
-  for (int y = box.y; y <= box.w; ++y) {
-    for (int x = box.x; x <= box.z; ++x) {
-      float value = value_at(polygon, ivec2(x, y));
-      if (value == 0.0) continue;
-      uint at = 6u * uint((y - tile_low.y) * TILE_SIDE + x - tile_low.x);
-      for (uint c = 0u; c < 3u; ++c) add_to_tile(at + 2u * c, value * gain[c]);
-    }
+// Polygons of few pixels: an invocation draws one by itself, into sums of the tile in fixed point. One loop over all
+// pixels, as lavapipe's invocations wait for each other at the end of each row.
+void draw_small(Polygon q, ivec4 box) {
+  vec3 gain = gain_of(q) * fixed_units;
+  Corners corners = corners_from(first_of(q), count_of(q));
+  vec2 last = last_corner(q);
+  for (ivec2 at = box.xy; at.y <= box.w; at = at.x < box.z ? ivec2(at.x + 1, at.y) : ivec2(box.x, at.y + 1)) {
+    float value = value_at(q, corners, last, at);
+    if (value == 0.0) continue;
+    uint sum = 6u * uint((at.y - tile_low.y) * TILE_SIDE + at.x - tile_low.x);
+    for (uint c = 0u; c < 3u; ++c) add_to_tile(sum + 2u * c, value * gain[c]);
   }
 }
 
@@ -265,26 +282,25 @@ void draw_small(uint polygon, ivec4 box) {
 void prepare(uint from, uint count) {
   uint t = gl_LocalInvocationIndex, j = t / 8u, e = t % 8u;
   if (from + j >= count) return;
-  uint polygon = others[from + j], word = RECORD_WORDS * polygon;
-  uint first = large[word + 8u], corners = corners_in(large[word + 9u]);
-  vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
+  uint number = others[from + j];
+  Polygon q = polygon_of(number);
+  uint first = first_of(q), corners = count_of(q);
+  vec2 origin = vec2(tile_low - base_of(q));
   bool is_convex = corners >= 3u && corners <= 8u;
   if (e >= corners) edges[t] = vec4(0.0, 0.0, 1.0, 0.0);  // every pixel is inside
   if (is_convex && e < corners) {
-    vec2 a = large_corners[first + e] - origin, b = large_corners[first + (e + 1u == corners ? 0u : e + 1u)] - origin;
+    vec2 a = large_corner(first + e) - origin, b = large_corner(first + (e + 1u == corners ? 0u : e + 1u)) - origin;
     vec2 along = b - a;
     // For the middle of the tile's pixel (x, y): positive inside, above w where the whole pixel is.
     edges[t] = vec4(-along.y, along.x, along.x * (0.5 - a.y) - along.y * (0.5 - a.x), 0.5 * (abs(along.x) + abs(along.y)));
   }
   if (e != 0u) return;
   edge_counts[j] = is_convex ? corners : 0u;
-  boxes_of_polygons[j] = box_of(polygon) - tile_low.xyxy;
-  gains[j] = gain_of(polygon);
-  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
-  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
-  planes[j] = vec3(gradient, record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point));
+  boxes_of_polygons[j] = box_of(number) - tile_low.xyxy;
+  gains[j] = gain_of(q);
+  planes[j] = vec3(gradient_of(q), value_of(q) + dot(gradient_of(q), origin + 0.5 - point_of(q)));
 #ifdef PATTERNS
-  patterns_of_polygons[j] = large[word + 9u] >> PATTERN_SHIFT;
+  patterns_of_polygons[j] = pattern_of(q);
   if (patterns_of_polygons[j] != 0u) prepare_maps(j, first + corners, origin + 0.5);
 #endif
 }
@@ -331,16 +347,16 @@ float prepared_value(uint j, uint polygon, ivec2 at, ivec2 pixel) {
 }
 
 // Whether a polygon covers the whole tile.
-bool covers_tile(uint polygon, vec2 origin) {
-  uint word = RECORD_WORDS * polygon, first = large[word + 8u], count = corners_in(large[word + 9u]);
+bool covers_tile(Polygon q, vec2 origin) {
+  uint first = first_of(q), count = count_of(q);
   if (count < 3u) return false;
 #ifdef PATTERNS
-  if (large[word + 9u] >> PATTERN_SHIFT != 0u) return false;
+  if (pattern_of(q) != 0u) return false;
 #endif
   const float half_tile = 0.5 * float(TILE_SIDE);
-  vec2 before = large_corners[first + count - 1u] - origin - half_tile;
+  vec2 before = large_corner(first + count - 1u) - origin - half_tile;
   for (uint k = 0u; k < count; ++k) {
-    vec2 here = large_corners[first + k] - origin - half_tile, along = here - before;
+    vec2 here = large_corner(first + k) - origin - half_tile, along = here - before;
     if (along.y * before.x - along.x * before.y < half_tile * (abs(along.x) + abs(along.y))) return false;
     before = here;
   }
@@ -348,11 +364,10 @@ bool covers_tile(uint polygon, vec2 origin) {
 }
 
 // Adds a polygon that covers the tile to the tile's plane, which each pixel evaluates once.
-void draw_whole(uint polygon, vec2 origin) {
-  vec2 gradient = vec2(record_float(polygon, 1u), record_float(polygon, 2u));
-  vec2 point = vec2(record_float(polygon, 3u), record_float(polygon, 4u));
-  float value = record_float(polygon, 0u) + dot(gradient, origin + 0.5 - point);
-  vec3 gain = gain_of(polygon) * fixed_units;
+void draw_whole(Polygon q, vec2 origin) {
+  vec2 gradient = gradient_of(q);
+  float value = value_of(q) + dot(gradient, origin + 0.5 - point_of(q));
+  vec3 gain = gain_of(q) * fixed_units;
   for (uint c = 0u; c < 3u; ++c) {
     add_to_plane(6u * c, value * gain[c]);
     add_to_plane(6u * c + 2u, gradient.x * gain[c]);
@@ -374,17 +389,17 @@ void draw_some(uint from, uint end, ivec2 pixel) {
   barrier();
   uint k = from + gl_LocalInvocationIndex;
   if (k < end) {
-    uint polygon = tile_lists[k];
-    ivec4 whole = box_of(polygon), box = ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1));
+    uint number = texelFetch(list_texels, int(k)).x;
+    Polygon q = polygon_of(number);
+    ivec4 whole = box_of(number), box = ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1));
     ivec2 extent = box.zw - box.xy + 1;
-    uint word = RECORD_WORDS * polygon;
-    vec2 origin = vec2(tile_low - ivec2(int(large[word + 10u]), int(large[word + 11u])));
-    if (extent.x * extent.y <= SMALL_PX)
-      draw_small(polygon, box);
-    else if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(polygon, origin))
-      draw_whole(polygon, origin);
+    vec2 origin = vec2(tile_low - base_of(q));
+    if (extent.x * extent.y <= p.small_px)
+      draw_small(q, box);
+    else if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(q, origin))
+      draw_whole(q, origin);
     else
-      others[atomicAdd(others_count, 1u)] = polygon;
+      others[atomicAdd(others_count, 1u)] = number;
   }
   barrier();
   uint count = others_count;

@@ -17,12 +17,12 @@ int cell_state(uvec4 v, uint crossing_count, uint pattern) {
   vec2 height = vec2(FAILED, -FAILED);
   for (int k = 0; k < 4; ++k) {
     open = open && passes(v[k]);
-    if (failed(rays[v[k]])) {
+    if (failed(ray_of(v[k]))) {
       any_failed = true;
       continue;
     }
     any = true;
-    height = vec2(min(height.x, rays[v[k]].w - 1.0), max(height.y, rays[v[k]].w - 1.0));
+    height = vec2(min(height.x, ray_of(v[k]).w - 1.0), max(height.y, ray_of(v[k]).w - 1.0));
   }
   if (open) return STATE_OPEN;
   if (!any || !may_be_open(height.x, height.y)) return STATE_CLOSED;
@@ -63,8 +63,8 @@ float pixel_extent_of(vec2 across, vec2 down, vec2 seen_across, vec2 seen_down) 
 
 // Whether dirt may dim the cell of four rays in order.
 bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
-  vec2 across = 0.5 * (rays[b].xy - rays[a].xy + rays[c].xy - rays[d].xy);
-  vec2 down = 0.5 * (rays[d].xy - rays[a].xy + rays[c].xy - rays[b].xy);
+  vec2 across = 0.5 * (ray_of(b).xy - ray_of(a).xy + ray_of(c).xy - ray_of(d).xy);
+  vec2 down = 0.5 * (ray_of(d).xy - ray_of(a).xy + ray_of(c).xy - ray_of(b).xy);
   for (uint k = 0u; k < POINTS; ++k) {
     if (!has_dirt_at(k, crossing_count)) continue;
     vec2 qa = point_of_ray(a, k), qb = point_of_ray(b, k), qc = point_of_ray(c, k), qd = point_of_ray(d, k);
@@ -79,8 +79,8 @@ bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
 int region_of_picture(uint a, uint b, uint c, uint d, uint crossing_count) {
   int all = REGION_UNIFORM;
   if (!HAS_PICTURE) return all;
-  vec2 across = 0.5 * (rays[b].xy - rays[a].xy + rays[c].xy - rays[d].xy);
-  vec2 down = 0.5 * (rays[d].xy - rays[a].xy + rays[c].xy - rays[b].xy);
+  vec2 across = 0.5 * (ray_of(b).xy - ray_of(a).xy + ray_of(c).xy - ray_of(d).xy);
+  vec2 down = 0.5 * (ray_of(d).xy - ray_of(a).xy + ray_of(c).xy - ray_of(b).xy);
   for (uint k = 0u; k < crossing_count; ++k) {
     vec2 qa = crossing(a, k), qb = crossing(b, k), qc = crossing(c, k), qd = crossing(d, k);
     float pixel_extent = pixel_extent_of(across, down, 0.5 * (qb - qa + qc - qd), 0.5 * (qd - qa + qc - qb));
@@ -97,16 +97,16 @@ int patterned_state(uvec4 v, uint crossing_count, uint pattern) {
   int how = cell_state(v, crossing_count, pattern);
   if (pattern == 0u || how == STATE_CLOSED) return how;
   for (int k = 0; k < 4; ++k)
-    if (failed(rays[v[k]])) return how;
+    if (failed(ray_of(v[k]))) return how;
   int region = region_of_rays(pattern, v.x, v.y, v.z, v.w, crossing_count);
   return region == REGION_DARK ? STATE_CLOSED : region == REGION_VARYING ? STATE_CUT : how;
 }
 
 // Sets what a cell's polygons have in common.
 void set_cell(uvec4 v) {
-  vec2 near = failed(rays[v.x]) ? rays[v.z].xy : rays[v.x].xy;
+  vec2 near = failed(ray_of(v.x)) ? ray_of(v.z).xy : ray_of(v.x).xy;
   base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
-  vec4 box = final_box(group_of(item));
+  vec4 box = state_box(item);
   float cells = float(side - 1u);
   gain = state_gain(item, box.xy + box.zw * (vec2(own % side, own / side) + 0.5) / cells);
   triangle_weight = 0.5 * box.z * box.w / (cells * cells) * item_irradiance(item);

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
+#define READ_TEXELS
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"

@@ -86,11 +86,33 @@ void bin_pairs(uint first, uint from, uint pairs) {
   barrier();
 }
 
+// Counts or lists one polygon in all its tiles. Processors have no neighbours that wait at one atomic, but read shared
+// memory and pass barriers slowly.
+void bin_alone(uint polygon) {
+  ivec4 tiles = tiles_of(polygon);
+  int tile_count = tiles.z * tiles.w;
+  if (uint(tile_count) >= WIDE_TILES) {
+    if (p.level == 0u) wide[atomicAdd(counters[COUNT_WIDE], 1u)] = polygon;
+    return;
+  }
+  for (int k = 0; k < tile_count; ++k) {
+    if (!may_reach(polygon, tiles, k)) continue;
+    uint tile = tile_number(tiles, k), place = atomicAdd(tile_counts[2u * tile + p.level], 1u);
+    if (p.level == 0u) continue;
+    place += tile_first[tile];
+    if (place < p.list_capacity) tile_lists[place] = polygon;
+  }
+}
+
 void main() {
   uint count = min(counters[COUNT_POLYGONS], p.large_capacity);
   uint first = 64u * linear_group();
   if (first >= count) return;
   uint own = first + gl_LocalInvocationIndex;
+  if (ON_PROCESSOR) {
+    if (own < count) bin_alone(own);
+    return;
+  }
   find_tiles(own, own < count);
   uint pairs = tiles_before[63];
   for (uint from = 0u; from < pairs; from += 64u) bin_pairs(first, from, pairs);
