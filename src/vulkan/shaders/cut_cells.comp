@@ -79,7 +79,10 @@ uint draw_triangle(uvec3 t, uint crossing_count, bool is_cut, vec2 gradient) {
   vec2 p0 = r0.xy - vec2(base), p1 = r1.xy - vec2(base), p2 = r2.xy - vec2(base);
   set_triangle(t, crossing_count);
   begin_triangle();
-  if (is_cut) clip_triangle(crossing_count);
+  if (is_cut)
+    clip_triangle(crossing_count);
+  else
+    keep_few();
   if (corner_count < 3) return 0u;
   float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
   for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;

@@ -3,86 +3,129 @@
 #define MAX_CORNERS 40
 #define MAX_TANGENTS 12
 
-// In (u, v) of a triangle, then in pixels relative to a base. Between cuts it lies in either half.
+// In (u, v) of a triangle, then in pixels relative to a base. Between cuts it may lie in the upper half.
 vec2 polygon[2 * MAX_CORNERS];
 int corner_count, first_corner = 0;
+// A polygon of few corners is here while it is clipped, without indices that vary, which would keep it in memory: on
+// lavapipe each such number is written in a branch of its own.
+#define FEW_CORNERS 8
+vec2 few[FEW_CORNERS];
+bool has_few;
 
 // The triangle of rays that is clipped: relative heights, and where the rays cross the stop.
 float heights_of_triangle[3];
 vec2 stops_of_triangle[MAX_CROSSINGS][3];
 
-// Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
-void cut(float at_0, float at_1, float at_2) {
-  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
+void append_few(inout vec2 next[FEW_CORNERS], inout int count, int most, bool appends, vec2 corner) {
+  for (int j = 0; j < FEW_CORNERS; ++j)
+    if (j <= most) next[j] = appends && count == j ? corner : next[j];
+  count += appends ? 1 : 0;
+}
+
+void cut_few(float at_0, float at_1, float at_2) {
+  vec2 next[FEW_CORNERS] = few;
+  int count = 0;
+  vec2 a = few[0];
+  float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
+  for (int k = 0; k < FEW_CORNERS - 1; ++k) {  // one corner more leaves the cut
+    bool exists = k < corner_count;
+    vec2 b = k + 1 >= corner_count ? few[0] : few[k + 1];
+    float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
+    append_few(next, count, k + 1, exists && fa <= 0.0, a);
+    append_few(next, count, k + 1, exists && (fa <= 0.0) != (fb <= 0.0), a + (b - a) * (fa / (fa - fb)));
+    a = b;
+    fa = fb;
+  }
+  few = next;
+  corner_count = count;
+}
+
+// From few[] to polygon[].
+void keep_few() {
+  if (!has_few) return;
+  for (int k = 0; k < FEW_CORNERS; ++k) polygon[k] = few[k];
+  has_few = false;
+}
+
+void end_cuts() {
+  keep_few();
+  if (first_corner != 0)
+    for (int k = 0; k < corner_count; ++k) polygon[k] = polygon[first_corner + k];
+  first_corner = 0;
+}
+
+// By turns a corner and where the edge from it crosses, so that there is one place that writes: lavapipe executes this
+// for polygons of few corners, too.
+void cut_many(float at_0, float at_1, float at_2) {
   int count = 0, to = first_corner == 0 ? MAX_CORNERS : 0;
   vec2 a = polygon[first_corner];
   float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
-  for (int k = 0; k < corner_count; ++k) {
-    vec2 b = polygon[first_corner + (k + 1 == corner_count ? 0 : k + 1)];
+  for (int k = 0; k < 2 * corner_count; ++k) {
+    bool is_crossing = (k & 1) != 0;
+    vec2 b = polygon[first_corner + (k / 2 + 1 == corner_count ? 0 : k / 2 + 1)];
     float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
-    if (fa <= 0.0 && count < MAX_CORNERS) polygon[to + count++] = a;
-    if ((fa <= 0.0) != (fb <= 0.0) && count < MAX_CORNERS) polygon[to + count++] = a + (b - a) * (fa / (fa - fb));
-    a = b;
-    fa = fb;
+    bool appends = is_crossing ? (fa <= 0.0) != (fb <= 0.0) : fa <= 0.0;
+    if (appends && count < MAX_CORNERS) polygon[to + count++] = is_crossing ? a + (b - a) * (fa / (fa - fb)) : a;
+    a = is_crossing ? b : a;
+    fa = is_crossing ? fb : fa;
   }
   first_corner = to;
   corner_count = count;
 }
 
-void end_cuts() {
-  if (first_corner != 0)
-    for (int k = 0; k < corner_count; ++k) polygon[k] = polygon[first_corner + k];
-  first_corner = 0;
+// Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
+void cut(float at_0, float at_1, float at_2) {
+  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
+  if (corner_count >= FEW_CORNERS) keep_few();
+  if (has_few)
+    cut_few(at_0, at_1, at_2);
+  else
+    cut_many(at_0, at_1, at_2);
 }
 
 void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
   cut(dot(normal, stop[0]) - half_extent, dot(normal, stop[1]) - half_extent, dot(normal, stop[2]) - half_extent);
 }
 
-// Tangents of a circle of radius r >= 1 deviate from its arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
-void clip_by_circle(vec2 stop[3], vec2 centre, float radius) {
-  vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - centre;
+// Clips by a straight bound of a normal and an extent, or by a circle of a centre and a radius: by its tangents. Those
+// of a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
+void clip_by_bound(vec2 stop[3], bool straight, vec2 place, float extent) {
+  vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - place;
   float half_extent = 0.0;
-  for (int k = 0; k < 3; ++k) half_extent = max(half_extent, length(stop[k] - centre - middle));
+  for (int k = 0; k < 3; ++k) half_extent = max(half_extent, length(stop[k] - place - middle));
   float distance = length(middle);
   float half_angle = distance > 1.5 * half_extent ? asin(half_extent / distance) : 3.14159265;
-  float step_rad = 0.05 / sqrt(max(radius, 1.0));
-  int tangents = min(1 + int(ceil(2.0 * half_angle / step_rad)), MAX_TANGENTS);
+  float step_rad = 0.05 / sqrt(max(extent, 1.0));
+  int tangents = straight ? 1 : min(1 + int(ceil(2.0 * half_angle / step_rad)), MAX_TANGENTS);
   float middle_angle = atan(middle.y, middle.x);
   for (int k = 0; k < tangents; ++k) {
     float angle = middle_angle + half_angle * (float(2 * k + 1) / float(tangents) - 1.0);
-    vec2 normal = vec2(cos(angle), sin(angle));
-    clip_by_edge(stop, normal, radius + dot(normal, centre));
+    vec2 normal = straight ? place : vec2(cos(angle), sin(angle));
+    clip_by_edge(stop, normal, straight ? extent : extent + dot(normal, place));
   }
 }
 
-bool is_beyond(uint b, vec2 stop[3]) {
-  return bound_distance(b, stop[0]) > 0.0 || bound_distance(b, stop[1]) > 0.0 || bound_distance(b, stop[2]) > 0.0;
-}
+bool is_circle() { return (p.flags & FLAG_CIRCLE) != 0u; }
+bool is_beyond(uint b, vec2 q) { return (is_circle() ? length(q) - 1.0 : bound_distance(b, q)) > 0.0; }
 
-void clip_by_bound(vec2 stop[3], uint b) {
-  if (is_straight(b))
-    clip_by_edge(stop, bound_normal(b), bound_apothem(b));
-  else
-    clip_by_circle(stop, bound_centre(b), bound_radius(b));
-}
-
-// Bounds are found before they clip, 32 at a time: lavapipe clips in all turns of a loop in which one invocation does.
-void clip_by_bounds(vec2 stop[3]) {
-  for (uint from = 0u; from < p.bound_count; from += 32u) {
-    uint left = 0u, count = min(p.bound_count - from, 32u);
-    for (uint k = 0u; k < count; ++k) left |= is_beyond(from + k, stop) ? 1u << k : 0u;
-    for (; left != 0u; left &= left - 1u) clip_by_bound(stop, from + uint(findLSB(left)));
-  }
-}
-
+// Bounds are found before they clip, 32 at a time, and all clip at one place: lavapipe clips in each turn of a loop in
+// which one invocation does, and on both sides of branches.
 void clip_by_iris(uint c) {
   vec2 stop[3] = stops_of_triangle[c];
-  if (iris_distance(stop[0]) <= 0.0 && iris_distance(stop[1]) <= 0.0 && iris_distance(stop[2]) <= 0.0) return;
-  if ((p.flags & FLAG_CIRCLE) != 0u) {
-    clip_by_circle(stop, vec2(0.0), 1.0);
-  } else {
-    clip_by_bounds(stop);
+  uint bounds_of_iris = is_circle() ? 1u : p.bound_count;
+  for (uint from = 0u; from < bounds_of_iris; from += 32u) {
+    uint left = 0u, count = min(bounds_of_iris - from, 32u);
+    for (uint k = 0u; k < count; ++k) {
+      uint b = from + k;
+      left |= is_beyond(b, stop[0]) || is_beyond(b, stop[1]) || is_beyond(b, stop[2]) ? 1u << k : 0u;
+    }
+    for (; left != 0u; left &= left - 1u) {
+      uint b = from + uint(findLSB(left));
+      vec4 line = bound_half(2u * b), circle = bound_half(2u * b + 1u);
+      bool straight = !is_circle() && line.w != 0.0;
+      vec2 place = is_circle() ? vec2(0.0) : straight ? line.xy : circle.xy;
+      clip_by_bound(stop, straight, place, is_circle() ? 1.0 : straight ? line.z : circle.z);
+    }
   }
 }
 
@@ -96,9 +139,8 @@ void set_triangle(uvec3 t, uint crossing_count) {
 
 // The whole triangle, in (u, v).
 void begin_triangle() {
-  polygon[0] = vec2(0.0);
-  polygon[1] = vec2(1.0, 0.0);
-  polygon[2] = vec2(0.0, 1.0);
+  for (int k = 0; k < FEW_CORNERS; ++k) few[k] = vec2(float(k == 1), float(k == 2));
+  has_few = true;
   corner_count = 3;
 }
 

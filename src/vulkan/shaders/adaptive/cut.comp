@@ -147,16 +147,10 @@ void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
 #else
   if (is_dimmed && (is_point || is_line || !set_pattern_map())) flux *= mean_transmittance();
 #endif
-  if (is_point) {
-    list_point(polygon[0], flux * fraction);
-    return;
-  }
-  if (is_line) {
-    list_line(from, to, flux * fraction);
-    return;
-  }
-  float value = flux / area;
-  list_polygon(Density((pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0), value, gradient * value), low, high);
+  bool is_small = is_point || is_line;
+  float value = is_small ? flux * fraction : flux / area;
+  vec2 middle = is_small ? vec2(0.0) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
 }
 
 void list_triangle(vec2 gradient) {

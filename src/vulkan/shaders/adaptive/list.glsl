@@ -62,16 +62,6 @@ int begin_record(Density density, uint count, ivec4 box) {
   return int(first);
 }
 
-// low, high: the polygon's bounds.
-void list_polygon(Density density, vec2 low, vec2 high) {
-  ivec4 box;
-  if (!pixels_of(low, high, box)) return;
-  int first = begin_record(density, uint(corner_count), box);
-  if (first < 0) return;
-  bool is_reversed = twice_polygon_area() < 0.0;
-  for (int k = 0; k < corner_count; ++k) large_corners[first + k] = polygon[is_reversed ? corner_count - 1 - k : k];
-}
-
 void list_quad(vec2 a, vec2 b, vec2 c, vec2 d, Density density) {
   if (cross2(c - a, d - b) < 0.0) {
     vec2 swapped = b;
@@ -96,11 +86,21 @@ void list_point(vec2 at, float flux) {
   if (first >= 0) large_corners[first] = at;
 }
 
-void list_line(vec2 from, vec2 to, float flux) {
+// Lists a point, a line between two points, or else the polygon, within bounds. At one place for all three, since
+// lavapipe executes the code of all.
+void list_any(bool is_point, bool is_line, vec2 from, vec2 to, Density density, vec2 low, vec2 high) {
+  bool is_polygon = !is_point && !is_line;
+  vec2 first_point = is_point ? polygon[0] : from, last_point = is_point ? polygon[0] : to;
   ivec4 box;
-  if (!pixels_of(min(from, to), max(from, to), box)) return;
-  int first = begin_record(Density(vec2(0.0), flux, vec2(0.0)), 2u, box);
+  if (!pixels_of(is_polygon ? low : min(first_point, last_point), is_polygon ? high : max(first_point, last_point), box))
+    return;
+  if (is_point) box = ivec4(floor(first_point), floor(first_point));
+  int count = is_polygon ? corner_count : is_point ? 1 : 2;
+  int first = begin_record(density, uint(count), box);
   if (first < 0) return;
-  large_corners[first] = from;
-  large_corners[first + 1] = to;
+  bool is_reversed = twice_polygon_area() < 0.0;
+  for (int k = 0; k < count; ++k) {
+    vec2 corner = polygon[is_reversed ? count - 1 - k : k];
+    large_corners[first + k] = is_polygon ? corner : k == 0 ? first_point : last_point;
+  }
 }
