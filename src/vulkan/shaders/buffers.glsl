@@ -32,6 +32,10 @@ layout(set = 0, binding = 38) uniform usamplerBuffer list_texels;
 layout(set = 0, binding = 39) uniform samplerBuffer block_texels;
 layout(set = 0, binding = 40) uniform samplerBuffer float_texels;     // of paths: numbers, four a texel
 layout(set = 0, binding = 41) uniform isamplerBuffer integer_texels;  // of paths, four a texel
+
+// Whether the device is a processor, which wants other code where this constant is asked for.
+layout(constant_id = 3) const bool ON_PROCESSOR = false;
+
 #ifdef DOUBLE
 #define real double
 #else

@@ -122,7 +122,7 @@ void absorb(inout PacketState s, uint step, real from_z) {
   s.transmission *= real(exp(float(-step_real(step, 16) * distance)));
 }
 
-void advance(inout PacketState s, uint step) {
+void advance(inout PacketState s, uint step, inout vec2 stops[MAX_CROSSINGS]) {
   int word = step_integer(step, 0), event = word & STEP_EVENT;
   bool general = WITH_GENERAL && (word & STEP_GENERAL) != 0;
   real direction = (word & STEP_BACKWARDS) != 0 ? real(-1.0) : real(1.0);
@@ -136,9 +136,9 @@ void advance(inout PacketState s, uint step) {
     vec2 at = vec2(float(s.ray.x * inverse_radius), float(s.ray.y * inverse_radius));
     // Without an index that varies, which would keep the points in memory.
     int crossed = word >> STEP_CROSSING_SHIFT;
-    stop_points[0] = crossed == 0 ? at : stop_points[0];
-    stop_points[1] = crossed == 1 ? at : stop_points[1];
-    stop_points[2] = crossed == 2 ? at : stop_points[2];
+    stops[0] = crossed == 0 ? at : stops[0];
+    stops[1] = crossed == 1 ? at : stops[1];
+    stops[2] = crossed == 2 ? at : stops[2];
     return;
   }
   s.relative_height_squared =
@@ -201,6 +201,6 @@ vec4 land(PacketState s) {
 // The ray that enters at an offset from the path's first point, mm; sets stop_points.
 vec4 trace_ray(real x, real y) {
   PacketState s = enter(x, y);
-  for (uint step = 0u; step < path_steps; ++step) advance(s, step);
+  for (uint step = 0u; step < path_steps; ++step) advance(s, step, stop_points);
   return land(s);
 }

@@ -3,6 +3,7 @@
 // off, whether another wavelength may serve, and how large a part of the frame has which level, for the frame's peak.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "item_path.glsl"
@@ -34,7 +35,29 @@ shared float densities[256];  // of cells, with the sign of their area; 0: none
 shared vec4 sums_of[256];
 shared uint histogram[BINS];
 
+// The sum of sums_of[], or the largest by component, into sums_of[0], in two steps: processors pass barriers slowly, and
+// all invocations wait for a loop that is unrolled.
+void reduce_in_steps(bool takes_largest) {
+  uint t = gl_LocalInvocationIndex;
+  barrier();
+  for (uint step_by = 16u; step_by > 0u; step_by /= 16u) {
+    if (t < step_by) {
+      vec4 all = sums_of[t];
+      [[dont_unroll]] for (uint k = t + step_by; k < 16u * step_by; k += step_by) {
+        vec4 one = sums_of[k];
+        all = takes_largest ? max(all, one) : all + one;
+      }
+      sums_of[t] = all;
+    }
+    barrier();
+  }
+}
+
 void sum_up() {
+  if (ON_PROCESSOR) {
+    reduce_in_steps(false);
+    return;
+  }
   barrier();
   for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
     if (gl_LocalInvocationIndex < half_count)
@@ -44,6 +67,10 @@ void sum_up() {
 }
 
 void largest() {
+  if (ON_PROCESSOR) {
+    reduce_in_steps(true);
+    return;
+  }
   barrier();
   for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
     if (gl_LocalInvocationIndex < half_count)

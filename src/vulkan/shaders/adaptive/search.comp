@@ -17,43 +17,49 @@ shared float heights[256];  // relative height - 1, FAILED where a ray fails
 shared vec2 stops[MAX_CROSSINGS][256];
 shared uint bounds_found[8];  // as found[]
 
-void trace_corner(uint item, vec2 at, uint k) {
-  set_path(item);
-  vec4 ray = trace_ray(at.x, at.y);
+void keep_corner(uint k, vec4 ray, vec2 points[MAX_CROSSINGS]) {
   heights[k] = failed(ray) ? FAILED : ray.w - 1.0;
-  for (uint c = 0u; c < crossings_of(item); ++c) stops[c][k] = stop_points[c];
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+    if (c < crossings_of(path_item)) stops[c][k] = points[c];
 }
 
-bool near_stop_beside_failing(uvec4 v, uint c, float radius) {
+// Traces the rays of a workgroup: that of each invocation, which enters at a place. later: the place of the invocation
+// that comes 128 later. On processors half of the invocations trace two rays each, as a ray waits for its roots and
+// divisions most of the time.
+void trace_corner(uint item, vec2 at, vec2 later, uint k) {
+  set_path(item);
+  if (!ON_PROCESSOR) {
+    keep_corner(k, trace_ray(at.x, at.y), stop_points);
+    return;
+  }
+  if (k >= 128u) return;
+  vec2 other_points[MAX_CROSSINGS] = vec2[MAX_CROSSINGS](vec2(0.0), vec2(0.0), vec2(0.0));
+  PacketState s = enter(at.x, at.y), other = enter(later.x, later.y);
+  for (uint step = 0u; step < path_steps; ++step) {
+    advance(s, step, stop_points);
+    advance(other, step, other_points);
+  }
+  keep_corner(k, land(s), stop_points);
+  keep_corner(k + 128u, land(other), other_points);
+}
+
+// Beside failing rays the others count by their distances.
+bool near_stop_beside_failing(vec2 q[4], bvec4 good, float radius) {
   vec2 distance = vec2(FAILED, -FAILED);
   for (int k = 0; k < 4; ++k) {
-    if (heights[v[k]] >= 0.5 * FAILED) continue;
-    float here = length(stops[c][v[k]]) - radius;
-    distance = vec2(min(distance.x, here), max(distance.y, here));
+    float here = length(q[k]) - radius;
+    if (good[k]) distance = vec2(min(distance.x, here), max(distance.y, here));
   }
   return distance.x <= max(0.0, distance.y - distance.x);
 }
 
-// Light may pass where the stop is near and the relative height does not fall below its lowest corner by more than the
+// Whether light may pass a cell's rim: where the relative height does not fall below its lowest corner by more than the
 // corners differ (open_cells.h). Corners whose rays fail are ignored.
-bool may_transmit(uvec4 v, uint crossing_count, uint pattern) {
-  int good = 0;
-  vec2 height = vec2(FAILED, -FAILED);
-  for (int k = 0; k < 4; ++k) {
-    float here = heights[v[k]];
-    if (here >= 0.5 * FAILED) continue;
-    ++good;
-    height = vec2(min(height.x, here), max(height.y, here));
-  }
-  if (good == 0 || !(height.x <= max(0.0, height.y - height.x))) return false;
-  for (uint c = 0u; c < crossing_count; ++c) {
-    vec2 q[4];
-    for (int k = 0; k < 4; ++k) q[k] = stops[c][v[k]];
-    // Beside failing rays the others count by their distances.
-    float radius = stop_radius(pattern, c, crossing_count);
-    if (good == 4 ? !near_stop(q, radius) : !near_stop_beside_failing(v, c, radius)) return false;
-  }
-  return true;
+bool may_pass_rim(vec4 height, bvec4 good) {
+  vec2 bounds = vec2(FAILED, -FAILED);
+  for (int k = 0; k < 4; ++k)
+    if (good[k]) bounds = vec2(min(bounds.x, height[k]), max(bounds.y, height[k]));
+  return any(good) && bounds.x <= max(0.0, bounds.y - bounds.x);
 }
 
 #define PASSES 0u
@@ -68,30 +74,28 @@ void report(uint kind, vec2 low, vec2 high, uint cells) {
   atomicMax(bounds_found[kind + 3u], last.y);
 }
 
-bool passes(uint k, uint crossing_count, uint pattern) {
-  bool open = heights[k] <= 0.0;
-  for (uint c = 0u; c < crossing_count; ++c) {
-    float radius = stop_radius(pattern, c, crossing_count);
-    open = open && dot(stops[c][k], stops[c][k]) <= radius * radius;
-  }
-  return open;
-}
-
 void search_block(uint item, vec4 box, uint cells, uint block) {
   uint k = gl_LocalInvocationIndex, blocks_a_side = cells / COARSE_CELLS;
   uvec2 place = COARSE_CELLS * uvec2(block % blocks_a_side, block / blocks_a_side) + gl_LocalInvocationID.xy;
-  trace_corner(item, box.xy + box.zw * vec2(place) / float(cells), k);
+  trace_corner(item, box.xy + box.zw * vec2(place) / float(cells),
+               box.xy + box.zw * vec2(place + uvec2(0u, 8u)) / float(cells), k);
   barrier();
   if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return;
   uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
   uint crossing_count = crossings_of(item), pattern = item_pattern(item);
-  if (passes(v.x, crossing_count, pattern) || passes(v.y, crossing_count, pattern) ||
-      passes(v.z, crossing_count, pattern) || passes(v.w, crossing_count, pattern)) {
-    float around = p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
-    report(PASSES, vec2(place) - around, vec2(place) + 1.0 + around, cells);
-  } else if (may_transmit(v, crossing_count, pattern)) {
-    report(MAY_PASS, vec2(place), vec2(place) + 1.0, cells);
+  // Each number of the corners is read once: lavapipe reads shared memory slowly.
+  vec4 height = vec4(heights[v.x], heights[v.y], heights[v.z], heights[v.w]);
+  bvec4 open = lessThanEqual(height, vec4(0.0)), good = lessThan(height, vec4(0.5 * FAILED));
+  bool may_pass = may_pass_rim(height, good);
+  for (uint c = 0u; c < crossing_count; ++c) {
+    vec2 q[4] = vec2[4](stops[c][v.x], stops[c][v.y], stops[c][v.z], stops[c][v.w]);
+    float radius = stop_radius(pattern, c, crossing_count);
+    for (int j = 0; j < 4; ++j) open[j] = open[j] && dot(q[j], q[j]) <= radius * radius;
+    may_pass = may_pass && (all(good) ? near_stop(q, radius) : near_stop_beside_failing(q, good, radius));
   }
+  if (!any(open) && !may_pass) return;
+  float around = any(open) && p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
+  report(any(open) ? PASSES : MAY_PASS, vec2(place) - around, vec2(place) + 1.0 + around, cells);
 }
 
 // Small pupils among failing rays lie where the plane of the light and the axis meets the entrance plane: a line that is
@@ -103,8 +107,10 @@ void scan_meridian(uint item, vec4 box, uint cells, uint part) {
   float reach = length(max(abs(first), abs(first + box.zw)));
   float step_mm = 2.0 * reach / float(255u * SCANS);
   vec2 at = along * (float(255u * part + k) * step_mm - reach) - first;
+  vec2 later = along * (float(255u * part + k + 128u) * step_mm - reach) - first;
   bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, box.zw));
-  trace_corner(item, at, k);
+  trace_corner(item, at, later, k);
+  barrier();
   if (!inside) heights[k] = FAILED;
   barrier();
   uint next = min(k + 1u, 255u);

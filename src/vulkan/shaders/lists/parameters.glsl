@@ -13,8 +13,5 @@ layout(push_constant) uniform Parameters {
 }
 p;
 
-// Whether the device is a processor, which wants other code where this constant is asked for.
-layout(constant_id = 3) const bool ON_PROCESSOR = false;
-
 #define LIST_PRIMITIVES 1u  // the corners of a polygon are rays, whose numbers are its first four words
 #define WIDE_TILES 32u      // from which on a polygon has a workgroup of its own
