@@ -377,12 +377,11 @@ void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   }
 }
 
-// Processors draw all pixels of a tile as long as one by one, so that there it pays for large polygons, too. Stop
-// patterns are dearer than the sums.
+// Stop patterns are dearer than the sums. Processors draw all pixels of a tile one after the other, so that there each
+// polygon is drawn in its own pixels only.
 std::int32_t AdaptiveFrame::small_px() const {
-  if (job_.dirt || has_picture()) return 64;
-  if (info_.kind == "processor") return 160;
-  return job_.patterns ? 64 : 12;
+  if (job_.patterns || job_.dirt) return 64;
+  return info_.kind == "processor" ? kRasterTile * kRasterTile : 12;
 }
 
 std::uint32_t AdaptiveFrame::flags() const {

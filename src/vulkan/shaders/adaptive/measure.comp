@@ -35,8 +35,8 @@ shared float densities[256];  // of cells, with the sign of their area; 0: none
 shared vec4 sums_of[256];
 shared uint histogram[BINS];
 
-// The sum of sums_of[], or the largest by component, into sums_of[0], in two steps: processors pass barriers slowly, and
-// all invocations wait for a loop that is unrolled.
+// The sum of sums_of[], or the largest by component, into sums_of[0], in two steps: processors pass barriers slowly,
+// and all invocations wait for a loop that is unrolled.
 void reduce_in_steps(bool takes_largest) {
   uint t = gl_LocalInvocationIndex;
   barrier();

@@ -394,10 +394,10 @@ void draw_some(uint from, uint end, ivec2 pixel) {
     ivec4 whole = box_of(number), box = ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1));
     ivec2 extent = box.zw - box.xy + 1;
     vec2 origin = vec2(tile_low - base_of(q));
-    if (extent.x * extent.y <= p.small_px)
-      draw_small(q, box);
-    else if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(q, origin))
+    if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers_tile(q, origin))
       draw_whole(q, origin);
+    else if (extent.x * extent.y <= p.small_px)
+      draw_small(q, box);
     else
       others[atomicAdd(others_count, 1u)] = number;
   }
