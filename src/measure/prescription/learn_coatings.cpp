@@ -86,21 +86,23 @@ EnergyEquations scaled(EnergyEquations energies, const Eigen::VectorXd& ratio, d
   return energies;
 }
 
-// The covariance's diagonal of the ratios' errors that a sum over pixels does not know: of what is alike in all pixels
-// of a station, by leaving out each station once (Quenouille 1956, Tukey 1958).
-Eigen::VectorXd scatter_of(const SweepEnergies& energies, std::size_t channel) {
-  const std::size_t count = energies.by_station.size();
-  std::vector<Eigen::VectorXd> all;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(energies.ghosts);
-  for (std::size_t k = 0; k < count; ++k) {
-    const EnergyEquations of = energies.sum(channel, static_cast<std::ptrdiff_t>(k));
-    all.push_back(nonnegative_least_squares(of.a, of.b).x);
-    mean += all.back() / static_cast<double>(count);
-  }
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(energies.ghosts);
-  for (const Eigen::VectorXd& ratio : all)
-    variance += (ratio - mean).cwiseAbs2() * (static_cast<double>(count) - 1.0) / static_cast<double>(count);
+// The variance of what all stations give, from what they give without each of them (Quenouille 1956, Tukey 1958).
+Eigen::VectorXd jackknife_variance(const std::vector<Eigen::VectorXd>& without) {
+  const auto count = static_cast<double>(without.size());
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(without.front().size()), variance = mean;
+  for (const Eigen::VectorXd& one : without) mean += one / count;
+  for (const Eigen::VectorXd& one : without) variance += (one - mean).cwiseAbs2() * (count - 1.0) / count;
   return variance;
+}
+
+// The variance of the ratios that a sum over pixels does not know: of errors that are alike in all pixels of a station.
+Eigen::VectorXd scatter_of(const SweepEnergies& energies, std::size_t channel) {
+  std::vector<Eigen::VectorXd> without;
+  for (std::size_t k = 0; k < energies.by_station.size(); ++k) {
+    const EnergyEquations of = energies.sum(channel, static_cast<std::ptrdiff_t>(k));
+    without.push_back(nonnegative_least_squares(of.a, of.b).x);
+  }
+  return jackknife_variance(without);
 }
 
 // The same equations with more variance in the ratios: A becomes (A^-1 + V)^-1, which exists for a singular A, too.
@@ -126,18 +128,11 @@ ChannelFit fit_channel(const CoatingTask& task, const SweepEnergies& energies, s
 // Standard errors of the reflectances' logarithms by leaving out each station once.
 Eigen::VectorXd jackknife_errors(const CoatingTask& task, const SweepEnergies& energies, std::size_t channel,
                                  const Eigen::VectorXd& expected) {
-  const std::size_t count = energies.by_station.size();
   const Eigen::VectorXd scatter = scatter_of(energies, channel);
-  std::vector<Eigen::VectorXd> all;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(task.surfaces.size()));
-  for (std::size_t k = 0; k < count; ++k) {
-    all.push_back(fit_channel(task, energies, channel, scatter, expected, static_cast<std::ptrdiff_t>(k)).fit.x);
-    mean += all.back() / static_cast<double>(count);
-  }
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(mean.size());
-  for (const Eigen::VectorXd& x : all)
-    variance += (x - mean).cwiseAbs2() * (static_cast<double>(count) - 1.0) / static_cast<double>(count);
-  return variance.cwiseSqrt();
+  std::vector<Eigen::VectorXd> without;
+  for (std::size_t k = 0; k < energies.by_station.size(); ++k)
+    without.push_back(fit_channel(task, energies, channel, scatter, expected, static_cast<std::ptrdiff_t>(k)).fit.x);
+  return jackknife_variance(without).cwiseSqrt();
 }
 
 // Reflectances of the unknowns' surfaces.
