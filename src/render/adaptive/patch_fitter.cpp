@@ -39,17 +39,38 @@ bool gets_through(const LobattoRays& ray_set, std::size_t node) {
   return ray_set.relative_height[node] <= 1.0F && std::ranges::all_of(ray_set.stop, passes);
 }
 
-// The area of the entrance between rays that get through and rays that fail, in which linear interpolation between rays
-// loses light.
-double area_next_to_failures_mm2(const LobattoRays& ray_set) {
+// By how much linear interpolation to a ray's two neighbours on the sensor misses it: four times the error that linear
+// interpolation between neighbours makes. 0 at the box's border and beside rays that fail.
+double bend_mm(const LobattoRays& ray_set, std::size_t node, std::size_t step, const std::vector<double>& points) {
+  const auto n = static_cast<std::size_t>(ray_set.nodes);
+  const std::size_t along = step == 1 ? node % n : node / n;
+  if (along == 0 || along + 1 == n) return 0.0;
+  const std::size_t before = node - step, after = node + step;
+  if (!ray_set.arrives(before) || !ray_set.arrives(node) || !ray_set.arrives(after)) return 0.0;
+  const double t = (points[along] - points[along - 1]) / (points[along + 1] - points[along - 1]);
+  const auto off = [&](const std::vector<float>& at) {
+    return static_cast<double>(at[node]) - (1.0 - t) * static_cast<double>(at[before]) -
+           t * static_cast<double>(at[after]);
+  };
+  return std::hypot(off(ray_set.sensor_x_mm), off(ray_set.sensor_y_mm));
+}
+
+// The area of the entrance in which linear interpolation between rays would lose light or misplace it by more than
+// this: next to rays that fail, and where the rays' map is bent.
+double area_not_linear_mm2(const LobattoRays& ray_set, double most_mm) {
   const LobattoCells cells(ray_set);
+  const std::vector<double>& points = lobatto_points(ray_set.nodes);
+  const auto n = static_cast<std::size_t>(ray_set.nodes);
   double sum_mm2 = 0.0;
   for (std::size_t first = 0; first < cells.end(); ++first) {
     if (!cells.has(first)) continue;
     const auto corners = cells.corners(first);
-    if (std::ranges::any_of(corners, [&](std::size_t k) { return std::isinf(ray_set.relative_height[k]); }) &&
-        std::ranges::any_of(corners, [&](std::size_t k) { return gets_through(ray_set, k); }))
-      sum_mm2 += cells.entrance_mm2(first);
+    if (std::ranges::none_of(corners, [&](std::size_t k) { return gets_through(ray_set, k); })) continue;
+    const auto is_off = [&](std::size_t k) {
+      return std::isinf(ray_set.relative_height[k]) || bend_mm(ray_set, k, 1, points) > 4.0 * most_mm ||
+             bend_mm(ray_set, k, n, points) > 4.0 * most_mm;
+    };
+    if (std::ranges::any_of(corners, is_off)) sum_mm2 += cells.entrance_mm2(first);
   }
   return sum_mm2;
 }
@@ -121,9 +142,10 @@ void PatchFitter::fit(const BoxPart& part, std::optional<double> first_misfit, c
     if (!last_part && area_of(*illuminated) < kWorthShrinking * area_of(box))
       return fit(whole(*illuminated, part.depth + 1), std::nullopt, fitting);
     const bool last = k + 1 == kNodes.size();
+    const double misplaced_mm = kMisplaced * fitting.tolerance.position_px * frame_.pixel_pitch_mm;
     const bool arrive = all_arrive(ray_sets);
     if (!arrive && !last_part && !negligible) break;
-    if (!arrive && !negligible && area_next_to_failures_mm2(ray_sets.front()) > fitting.tolerance.lost_mm2) {
+    if (!arrive && !negligible && area_not_linear_mm2(ray_sets.front(), misplaced_mm) > fitting.tolerance.lost_mm2) {
       if (!last) continue;
       if (part.depth < max_depth_ + kNextToFailure) break;
     }

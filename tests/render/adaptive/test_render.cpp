@@ -416,6 +416,21 @@ TEST_CASE("ghosts whose pupils end where rays fail keep their light") {
   }
 }
 
+TEST_CASE("a caustic next to rays that fail has no streaks, and comes to the truth as the error falls") {
+  const LensState lens = test::bundled("heliar", {.f_number = 3.5});
+  test::Settings settings = settings_for(lens, 320, 180);
+  settings.selection = SelectList{{{1, 9}}};
+  settings.set_grid(512);
+  const Vec2 at_px{0.7 * 320.0, 0.35 * 180.0};
+  const Light light{
+      .direction = direction_for_image_point(lens, settings.frame.sensor_from_pixel(at_px), lens.design_wavelength_nm)};
+  const Image truth = image_of("bundle", lens, light, settings);
+  settings.set_error(0.003);
+  CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 53.5);
+  settings.set_error(0.0003);
+  CHECK(psnr_db(truth, image_of("adaptive", lens, light, settings)) > 62.0);  // 55 with the rays of the first step
+}
+
 TEST_CASE("the outline of a dim ghost lies where a finer one does, with no corners") {
   const LensState lens = test::lens_at_f("heliar", 16.0);
   test::Settings settings = settings_for(lens, 1920, 1080);
