@@ -12,8 +12,8 @@ namespace contrejour::inline internal::vulkan {
 namespace {
 
 // The part of the squared error that the rays' spacing may spend; the rest is for what the measures of coarse cells do
-// not see. It was chosen, not derived: the papers' lenses came out at 50 dB and better with it (docs/gpu.md).
-constexpr double kBudgetShare = 0.25;
+// not see. It was chosen, not derived: the papers' lenses come out at 63 dB and better with it (docs/gpu.md).
+constexpr double kBudgetShare = 0.125;
 // The counters are fetched before the pixels.
 constexpr std::uint64_t kCountersBytes = sizeof(std::uint32_t) * kCounters;
 constexpr std::int32_t kRasterTile = 16;  // TILE_SIDE of adaptive/raster.comp
