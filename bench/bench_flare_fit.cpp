@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flares fitted to simulated captures of lenses whose prescriptions say what is right: a program of its own.
 //   flare_fit [LENS, or all] [STATIONS] [RAW WIDTH] [FOLDER FOR WHAT IS RENDERED] [FOLDER FOR PICTURES, or -] [WIDTH]
-// Pictures have half the raw width, and the fit reduces them to at most the last width.
+//     [lens]
+// Pictures have half the raw width, and the fit reduces them to at most the last width. With `lens`, it starts from the
+// ghosts of the lens.
 // Each ghost by itself, as the exact renderer draws it at one angle, is compared with the fitted ghost by itself: its
 // middle over the light's place (speed), its RMS height (size), its flux, and the RMS difference over its bright level.
 // `in picture` is the RMS difference of all ghosts together over the ghost's body, over its bright level, but for a

@@ -55,7 +55,7 @@ Result<std::optional<CaptureExposure>> given_exposure(const CaptureExposure& giv
       "the exposure of the photographs needs --f-number, --iso and --time together, or none of them");
 }
 
-// The ghosts of the lens that is named, as many as the fit looks for by their edges before profiles.
+// The ghosts of the lens that is named, from which the fit starts; none without a lens.
 Result<std::vector<FoundGhost>> starts_of(const FitRequest& request, const MergedSweep& merged,
                                           const Context& context) {
   if (request.lens.empty()) return std::vector<FoundGhost>();

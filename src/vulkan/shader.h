@@ -53,8 +53,7 @@ enum class Shader : std::uint8_t {
 inline constexpr std::size_t kShaders = 36;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
-// surfaces, for those of `adaptive` whether the iris is a picture, for those
-// of `tiled` the interpolation.
+// surfaces, for those of `adaptive` whether the iris is a picture, for those of `tiled` the interpolation.
 struct Program {
   Program(Shader which, PathGeometry surfaces = PathGeometry::General) : shader(which), geometry(surfaces) {}
   Program(Shader which, TiledOptions::Interpolation method)

@@ -162,7 +162,7 @@ Logarithms logarithms_of(const std::vector<Rgb>& reflectances, const std::vector
   return all;
 }
 
-// What a round says of a lens that was drawn with these.
+// The reflectances that a round gives, from those with which the lens was drawn.
 std::vector<Rgb> learnt_reflectances(const RoundFit& round, std::vector<Rgb> drawn) {
   for (std::size_t k = 0; k < drawn.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c)

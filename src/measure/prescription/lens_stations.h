@@ -28,8 +28,9 @@ struct LensStations {
 [[nodiscard]] Result<LensStations> lens_stations(const LensPhotographs& photographs, const LensState& lens,
                                                  int max_width, const Context& context);
 
-// The same stations with their pictures in ACEScg, of which every channel is positive for all wavelengths but for a few
-// thousandths. A pixel counts if all its channels are known.
+// The same stations with their pictures in ACEScg, in which the negative weights of wavelengths sum to at most 7 per
+// cent of a channel (in Rec.709, 48): the mean of a reflectance then has a logarithm. A pixel counts if all its
+// channels are known.
 [[nodiscard]] LensStations in_acescg(LensStations stations);
 
 // The radius about the light's image that no fit uses.

@@ -40,7 +40,7 @@ void cut_few(float at_0, float at_1, float at_2) {
   corner_count = count;
 }
 
-// From few[] to polygon[].
+// Copies few[] to polygon[].
 void keep_few() {
   if (!has_few) return;
   for (int k = 0; k < FEW_CORNERS; ++k) polygon[k] = few[k];
@@ -54,8 +54,8 @@ void end_cuts() {
   first_corner = 0;
 }
 
-// By turns a corner and where the edge from it crosses, so that there is one place that writes: lavapipe executes this
-// for polygons of few corners, too.
+// Each turn of the loop writes a corner, or the point at which the edge from it crosses, so that one place writes:
+// lavapipe executes this for polygons of few corners, too.
 void cut_many(float at_0, float at_1, float at_2) {
   int count = 0, to = first_corner == 0 ? MAX_CORNERS : 0;
   vec2 a = polygon[first_corner];
@@ -87,8 +87,8 @@ void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
   cut(dot(normal, stop[0]) - half_extent, dot(normal, stop[1]) - half_extent, dot(normal, stop[2]) - half_extent);
 }
 
-// Clips by a straight bound of a normal and an extent, or by a circle of a centre and a radius: by its tangents. Those
-// of a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
+// Clips by a straight bound of a normal and an extent, or by tangents of a circle of a centre and a radius. Tangents of
+// a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
 void clip_by_bound(vec2 stop[3], bool straight, vec2 place, float extent) {
   vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - place;
   float half_extent = 0.0;

@@ -46,7 +46,7 @@ void main() {
   arrived.z *= p.triangle_weight;
   rays[ray] = arrived;
   uint blockers = arrived.w > 1.0 ? BLOCKED_BY_RIM : 0u;
-  // Without a loop, whose index would keep the points in memory.
+  // The index of a loop would keep the points in memory.
   blockers |= keep_crossing(ray, 0u, stop_points[0]);
   blockers |= keep_crossing(ray, 1u, stop_points[1]);
   blockers |= keep_crossing(ray, 2u, stop_points[2]);

@@ -134,7 +134,7 @@ void advance(inout PacketState s, uint step, inout vec2 stops[MAX_CROSSINGS]) {
   if (event != EVENT_REFRACT && event != EVENT_REFLECT) {
     real inverse_radius = path_real(3);
     vec2 at = vec2(float(s.ray.x * inverse_radius), float(s.ray.y * inverse_radius));
-    // Without an index that varies, which would keep the points in memory.
+    // An index that varies would keep the points in memory.
     int crossed = word >> STEP_CROSSING_SHIFT;
     stops[0] = crossed == 0 ? at : stops[0];
     stops[1] = crossed == 1 ? at : stops[1];

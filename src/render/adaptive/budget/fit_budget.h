@@ -19,9 +19,9 @@ inline constexpr double kWorthShrinking =
 inline constexpr double kMaxLoosening = 64.0, kNegligibleLevels = 10.0;
 inline constexpr int kNextToFailure =
     1;  // further quarterings where too much light would be lost next to rays that fail
-// Where linear interpolation beside rays that fail misplaces light by more than this multiple of the positions'
-// tolerance, the light counts as lost. Without this, caustics next to such rays were drawn as bundles of streaks at any
-// error (Heliar 1-9 at f/3.5); less makes the Planar wide open dearer and no picture better.
+// Light that linear interpolation beside failing rays misplaces by more than this multiple of the positions' tolerance
+// counts as lost. Otherwise caustics next to such rays are drawn as bundles of streaks at any error (Heliar 1-9 at
+// f/3.5). A smaller multiple makes frames of the Planar wide open slower and no picture better.
 inline constexpr double kMisplaced = 16.0;
 inline constexpr double kHopeless = 2.0;  // times the tolerance, predicted for more nodes: the box is then quartered
 

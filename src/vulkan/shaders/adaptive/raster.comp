@@ -84,7 +84,7 @@ float part_in_pixel(vec2 from, vec2 to) {
   return max(last - first, 0.0);
 }
 
-// What is listed of a polygon, whose words are described in list.glsl.
+// The record of a polygon. Its words are described in list.glsl.
 struct Polygon {
   uvec4 density, point_and_gain, corners;
 };
