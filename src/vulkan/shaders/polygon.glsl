@@ -3,7 +3,7 @@
 #define MAX_CORNERS 40
 #define MAX_TANGENTS 12
 
-// In (u, v) of a triangle, then in pixels relative to a base. Between cuts it may lie in the upper half.
+// In (u, v) of what is clipped, then in pixels relative to a base. Between cuts it may lie in the upper half.
 vec2 polygon[2 * MAX_CORNERS];
 int corner_count, first_corner = 0;
 // A polygon of few corners is here while it is clipped, without indices that vary, which would keep it in memory: on
@@ -12,9 +12,15 @@ int corner_count, first_corner = 0;
 vec2 few[FEW_CORNERS];
 bool has_few;
 
-// The triangle of rays that is clipped: relative heights, and where the rays cross the stop.
+// The triangle of rays that is clipped: relative heights, and where the rays cross the stop. A parallelogram is described
+// by the triangle of its first, second and last corner: functions are linear over both.
 float heights_of_triangle[3];
 vec2 stops_of_triangle[MAX_CROSSINGS][3];
+#ifdef PARALLELOGRAMS
+bool is_parallelogram = false;
+#else
+const bool is_parallelogram = false;
+#endif
 
 void append_few(inout vec2 next[FEW_CORNERS], inout int count, int most, bool appends, vec2 corner) {
   for (int j = 0; j < FEW_CORNERS; ++j)
@@ -75,7 +81,7 @@ void cut_many(float at_0, float at_1, float at_2) {
 
 // Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
 void cut(float at_0, float at_1, float at_2) {
-  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0) return;
+  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0 && (!is_parallelogram || at_1 + at_2 - at_0 <= 0.0)) return;
   if (corner_count >= FEW_CORNERS) keep_few();
   if (has_few)
     cut_few(at_0, at_1, at_2);
@@ -90,8 +96,8 @@ void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
 // Clips by a straight bound of a normal and an extent, or by tangents of a circle of a centre and a radius. Tangents of
 // a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
 void clip_by_bound(vec2 stop[3], bool straight, vec2 place, float extent) {
-  vec2 middle = (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0) - place;
-  float half_extent = 0.0;
+  vec2 middle = (is_parallelogram ? 0.5 * (stop[1] + stop[2]) : (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0)) - place;
+  float half_extent = 0.0;  // the last corner of a parallelogram is as far from the middle as the first
   for (int k = 0; k < 3; ++k) half_extent = max(half_extent, length(stop[k] - place - middle));
   float distance = length(middle);
   float half_angle = distance > 1.5 * half_extent ? asin(half_extent / distance) : 3.14159265;
@@ -117,7 +123,9 @@ void clip_by_iris(uint c) {
     uint left = 0u, count = min(bounds_of_iris - from, 32u);
     for (uint k = 0u; k < count; ++k) {
       uint b = from + k;
-      left |= is_beyond(b, stop[0]) || is_beyond(b, stop[1]) || is_beyond(b, stop[2]) ? 1u << k : 0u;
+      bool clips = is_beyond(b, stop[0]) || is_beyond(b, stop[1]) || is_beyond(b, stop[2]);
+      if (is_parallelogram) clips = clips || is_beyond(b, stop[1] + stop[2] - stop[0]);
+      left |= clips ? 1u << k : 0u;
     }
     for (; left != 0u; left &= left - 1u) {
       uint b = from + uint(findLSB(left));
@@ -137,11 +145,12 @@ void set_triangle(uvec3 t, uint crossing_count) {
   }
 }
 
-// The whole triangle, in (u, v).
+// The whole triangle or parallelogram, in (u, v).
 void begin_triangle() {
-  for (int k = 0; k < FEW_CORNERS; ++k) few[k] = vec2(float(k == 1), float(k == 2));
+  for (int k = 0; k < FEW_CORNERS; ++k)
+    few[k] = is_parallelogram ? vec2(float(k == 1 || k == 2), float(k == 2 || k == 3)) : vec2(float(k == 1), float(k == 2));
   has_few = true;
-  corner_count = 3;
+  corner_count = is_parallelogram ? 4 : 3;
 }
 
 // Leaves the open part of the triangle of rays.

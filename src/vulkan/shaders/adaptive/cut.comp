@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the polygons of a part of a cell that is cut by rims or the iris, or is not smooth: half a part an invocation, as
-// ../cells.comp. Edges of ghosts are finer than the grid: the corners of parts lie between the rays.
+// Lists the polygons of a part of a cell that is cut by rims or the iris, or is not smooth, one invocation a part. Edges of
+// ghosts are finer than the grid: the corners of parts lie between the rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #define READ_TEXELS
+#define PARALLELOGRAMS
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
@@ -17,8 +18,12 @@ layout(local_size_x = 64) in;
 #include "state.glsl"
 #include "between.glsl"
 
-vec3 transmissions;
+// What is drawn has straight sides: a triangle, or a quadrilateral that counts as a parallelogram except for its
+// corners' pixels.
 vec2 pixels[3];
+vec2 twist = vec2(0.0);  // of the quadrilateral: its third corner's pixel, from that of the parallelogram
+float area_px;           // of the whole
+float transmission;      // its mean, or twice that of a quadrilateral
 
 // The stop points of the corners at the last crossing, where the item has a stop pattern.
 uint pattern = 0u;
@@ -60,8 +65,6 @@ Parallelogram about_triangle(vec2 corners[3]) {
                        0.40824829 * size * (u + v));
 }
 
-float triangle_px() { return 0.5 * abs(cross2(pixels[1] - pixels[0], pixels[2] - pixels[0])); }
-
 // Whether pixels look up transmittances in a triangle; width: of the stop that a pixel sees.
 bool is_looked_up(float area, float width) { return area >= (width > WIDE ? LARGE_OF_WIDE_PX : LARGE_PX); }
 
@@ -70,7 +73,7 @@ vec2 to_u, to_v;  // by pixels: the slopes of the triangle's coordinates
 // A thin triangle counts as thicker, so that maps do not become steep beside it.
 void set_slopes() {
   vec2 a = pixels[1] - pixels[0], b = pixels[2] - pixels[0];
-  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * triangle_px() / longest;
+  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * area_px / longest;
   float least = least_thickness(longest);
   float extra = thickness < least ? least * least - thickness * thickness : 0.0;
   float aa = dot(a, a) + extra, bb = dot(b, b) + extra, ab = dot(a, b), scale = 1.0 / (aa * bb - ab * ab);
@@ -105,7 +108,7 @@ uint edges_of(PointMap map) {
 
 // The width of the stop, or of another plane, that a pixel sees.
 float width_of(vec2 at[3]) {
-  return sqrt(0.5 * abs(cross2(at[1] - at[0], at[2] - at[0])) / max(triangle_px(), 1e-12));
+  return sqrt(0.5 * abs(cross2(at[1] - at[0], at[2] - at[0])) / max(area_px, 1e-12));
 }
 
 #ifdef OCCLUDERS
@@ -119,7 +122,7 @@ float mean_transmittance() {
 
 // Sets the map from pixels to stop points. Returns false where the triangle is too small to have one.
 bool set_pattern_map() {
-  if (!is_looked_up(triangle_px(), width_of(last_stops))) return false;
+  if (!is_looked_up(area_px, width_of(last_stops))) return false;
   set_slopes();
   PointMap map = map_to(last_stops);
   uint edge_bits = edges_of(map);
@@ -136,20 +139,21 @@ void find_occluders() { is_dimmed = pattern != 0u; }
 
 // low, high: the polygon's bounds.
 void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
-  float area = triangle_px();
   bool is_point = floor(low) == floor(high);
   vec2 from = low, to = low;
   // The corners are compared in pairs only if the polygon is thin for its bounds.
-  if (area < SLIVER * dot(high - low, high - low)) farthest_corners(from, to);
-  bool is_line = area < SLIVER * dot(to - from, to - from);
+  if (area_px < SLIVER * dot(high - low, high - low)) farthest_corners(from, to);
+  bool is_line = area_px < SLIVER * dot(to - from, to - from);
 #ifdef OCCLUDERS
   if (is_dimmed) flux *= set_occluders(is_point, is_line);
 #else
   if (is_dimmed && (is_point || is_line || !set_pattern_map())) flux *= mean_transmittance();
 #endif
   bool is_small = is_point || is_line;
-  float value = is_small ? flux * fraction : flux / area;
-  vec2 middle = is_small ? vec2(0.0) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  float value = is_small ? flux * fraction : flux / area_px;
+  vec2 middle = is_parallelogram ? 0.5 * (pixels[1] + pixels[2]) + 0.25 * twist
+                                 : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  if (is_small) middle = vec2(0.0);
   list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
 }
 
@@ -157,7 +161,7 @@ void list_triangle(vec2 gradient) {
   begin_triangle();
   clip_triangle(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
-  float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
+  float fraction = (is_parallelogram ? 0.5 : 1.0) * abs(twice_polygon_area());  // the triangle's area is 1/2
   find_occluders();
   if (is_dimmed) {
     for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
@@ -166,72 +170,115 @@ void list_triangle(vec2 gradient) {
   vec2 low = vec2(FAILED), high = vec2(-FAILED);
   for (int k = 0; k < corner_count; ++k) {
     vec2 at = polygon[k];
-    at = pixels[0] + (pixels[1] - pixels[0]) * at.x + (pixels[2] - pixels[0]) * at.y;
+    at = pixels[0] + (pixels[1] - pixels[0]) * at.x + (pixels[2] - pixels[0]) * at.y + twist * (at.x * at.y);
     polygon[k] = at;
     low = min(low, at);
     high = max(high, at);
   }
-  list_part(triangle_weight * (transmissions.x + transmissions.y + transmissions.z) / 3.0, fraction, gradient, low,
-            high);
+  list_part(triangle_weight * transmission, fraction, gradient, low, high);
 }
 
-// Sets where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
-void set_stops(float weights_of[3][12]) {
+// The corners of the part, in order; stops: where their rays cross the stop.
+struct Part {
+  vec2 pixels[4], stops[MAX_CROSSINGS][4];
+  vec4 light, heights;
+#ifdef OCCLUDERS
+  vec2 fronts[4];
+#endif
+};
+Part part;
+
+// What is drawn of the part.
+#define WHOLE 0u
+#define FIRST_HALF 1u
+#define SECOND_HALF 2u
+
+// Reads where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
+void read_stops(float weights_of[4][12]) {
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
     if (c >= crossings_of(item)) continue;
-    vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
     for (int j = 0; j < 12; ++j) {
       vec2 at = crossing(around[j], c);
-      for (int k = 0; k < 3; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
+      for (int k = 0; k < 4; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
     }
-    for (int k = 0; k < 3; ++k) stops_of_triangle[c][k] = sum[k];
+    part.stops[c] = sum;
   }
 }
 
-// Sets the corners of half a part of the cell.
-void set_part(vec2 low, float size, bool is_second) {
+// Reads a square part of the cell. Corners of the cell are its rays, of which some may fail.
+void read_part(vec2 low, float size) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
-  float weights_of[3][12];
-  for (int k = 0; k < 3; ++k) {
-    vec2 at = low + size * corners[k == 0 ? 0 : is_second ? k + 1 : k];
+  float weights_of[4][12];
+  find_around();
+  for (int k = 0; k < 4; ++k) {
+    vec2 at = low + size * corners[k];
 #ifdef OCCLUDERS
-    front_of_triangle[k] = front_at(at);
+    part.fronts[k] = front_at(at);
 #endif
     set_weights(at, true, true);
     vec4 ray = ray_between();
-    transmissions[k] = max(ray.z, 0.0);
-    heights_of_triangle[k] = ray.w;
+    part.light[k] = max(ray.z, 0.0);
+    part.heights[k] = ray.w;
     weights_of[k] = weights;
     if (is_on_straight_row(at) || is_on_straight_column(at)) {
       set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
       ray.xy = ray_between().xy;
     }
-    pixels[k] = ray.xy - vec2(base);
+    part.pixels[k] = ray.xy - vec2(base);
   }
-  set_stops(weights_of);
+  read_stops(weights_of);
 }
 
-bool set_whole(uvec3 t) {
-  for (int k = 0; k < 3; ++k) {
-    vec4 ray = ray_of(t[k]);
-    if (failed(ray)) return false;
-    pixels[k] = ray.xy - vec2(base);
-    transmissions[k] = ray.z;
+// Values at the first, second and last corner of what is drawn. A parallelogram's sides are the means of opposite sides
+// of the part.
+vec2[3] drawn_corners(vec2 at[4], uint how) {
+  vec2 excess = how == WHOLE ? 0.25 * (at[0] - at[1] + at[2] - at[3]) : vec2(0.0);
+  return vec2[3](at[0] - excess, how == SECOND_HALF ? at[2] : at[1] + excess,
+                 how == FIRST_HALF ? at[2] : at[3] + excess);
+}
+
+void set_drawn(uint how) {
+  const vec2 none[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
+  vec2 heights[4] = none;
+  for (int k = 0; k < 4; ++k) heights[k].x = part.heights[k];
+  vec2 heights_of_drawn[3] = drawn_corners(heights, how);
+  for (int k = 0; k < 3; ++k) heights_of_triangle[k] = heights_of_drawn[k].x;
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+    if (c < crossings_of(item)) stops_of_triangle[c] = drawn_corners(part.stops[c], how);
 #ifdef OCCLUDERS
-    front_of_triangle[k] = point_of_ray(t[k], POINT_FRONT);
+  front_of_triangle = drawn_corners(part.fronts, how);
 #endif
-  }
-  set_triangle(t, crossings_of(item));
-  return true;
+  is_parallelogram = how == WHOLE;
+  vec2 a = part.pixels[0], b = part.pixels[1], c = part.pixels[2], d = part.pixels[3];
+  float first_half = (part.light.x + part.light.y + part.light.z) / 3.0;
+  float second_half = (part.light.x + part.light.z + part.light.w) / 3.0;
+  transmission = (how == SECOND_HALF ? 0.0 : first_half) + (how == FIRST_HALF ? 0.0 : second_half);
+  pixels = vec2[3](a, how == SECOND_HALF ? c : b, how == FIRST_HALF ? c : d);
+  twist = is_parallelogram ? a - b + c - d : vec2(0.0);
+  area_px = 0.5 * abs(is_parallelogram ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
+}
+
+// Patterns and occluders are linear over triangles, and the light of a quadrilateral that is about to fold is uneven.
+#define LEAST_CORNER 0.7  // the area of the parallelogram at a corner of a quadrilateral, by the mean
+bool is_drawn_whole() {
+#ifdef OCCLUDERS
+  return false;
+#else
+  vec2 a = part.pixels[0], b = part.pixels[1], c = part.pixels[2], d = part.pixels[3];
+  vec4 areas = vec4(cross2(b - a, d - a), cross2(c - b, a - b), cross2(d - c, b - c), cross2(a - d, c - d));
+  float least = LEAST_CORNER * 0.25 * abs(areas.x + areas.y + areas.z + areas.w);
+  return pattern == 0u && (all(greaterThan(areas, vec4(least))) || all(lessThan(areas, vec4(-least))));
+#endif
 }
 
 void main() {
   uint k = linear_group() * 64u + gl_LocalInvocationID.x;
-  if (k / 2u >= min(counters[COUNT_CUT], p.cut_capacity)) return;
-  uvec2 part = texelFetch(cut_texels, int(k / 2u)).xy;
-  item = part.x;
-  own = part.y & CUT_CELL_MASK;
-  uint parts = 1u + (part.y >> CUT_PARTS_SHIFT), number = (part.y >> CUT_PART_SHIFT) & 15u;
+  if (k >= min(counters[COUNT_CUT], p.cut_capacity)) return;
+  uvec2 words = texelFetch(cut_texels, int(k)).xy;
+  item = words.x;
+  own = words.y & CUT_CELL_MASK;
+  uint parts = 1u + (words.y >> CUT_PARTS_SHIFT), number = (words.y >> CUT_PART_SHIFT) & 15u;
   side = cells_of(item) + 1u;
   first_ray = 64u * offset_of(item);
   uvec4 v = first_ray + own + uvec4(0u, 1u, side + 1u, side);
@@ -240,19 +287,22 @@ void main() {
 #ifdef OCCLUDERS
   grid_box = state_box(item);
 #endif
-  bool any_failed = failed(ray_of(v.x)) || failed(ray_of(v.y)) || failed(ray_of(v.z)) || failed(ray_of(v.w));
+  bvec4 fails = bvec4(failed(ray_of(v.x)), failed(ray_of(v.y)), failed(ray_of(v.z)), failed(ray_of(v.w)));
+  if (fails.x || fails.z || fails.y && fails.w) return;
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
-  float area = any_failed ? 0.0 : 0.5 * cross2(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy);
+  float area = any(fails) ? 0.0 : 0.5 * cross2(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy);
   bool is_shaded = all(greaterThan(e, vec4(0.0))) && abs(area) >= SHADED_CELL_PX;
   vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
-  bool is_second = k % 2u != 0u;
-  if (any_failed) {
-    if (!set_whole(is_second ? v.xzw : v.xyz)) return;
-  } else {
-    float size = 1.0 / float(parts);
-    find_around();
-    set_part(vec2(number % parts, number / parts) * size, size, is_second);
-    triangle_weight *= size * size;
-  }
-  list_triangle(gradient);
+  float size = 1.0 / float(parts);
+  read_part(vec2(number % parts, number / parts) * size, size);
+  triangle_weight *= size * size;
+  bool has_halves = !any(fails) && !is_drawn_whole();
+  uint how = fails.y ? SECOND_HALF : fails.w || has_halves ? FIRST_HALF : WHOLE;
+  bool is_last;
+  do {
+    set_drawn(how);
+    list_triangle(gradient);
+    is_last = how != FIRST_HALF || !has_halves;
+    how = SECOND_HALF;
+  } while (!is_last);
 }

@@ -54,7 +54,7 @@ bool is_looked_up() {
     set_points(k, at);
     widest = max(widest, k == POINT_FRONT ? width_of(at) / dirt_float(DIRT_CLEAR_RADIUS) : width_of(at));
   }
-  return is_looked_up(triangle_px(), widest);
+  return is_looked_up(area_px, widest);
 }
 
 // The product of the transmittances at a place in the picture, over a part of a pixel's sides.
