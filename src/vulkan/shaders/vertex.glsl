@@ -2,7 +2,9 @@
 // The irradiance of the cells around a ray, which share it.
 // CellRaster::find_irradiance() and PrimitiveBuilder::find_irradiance(), which are the same: the flux of the cells
 // around a vertex over their area, hullin2011 4.1 and 4.3. Cells beyond the border count as those inside it.
+#ifndef SMOOTH_RATIO
 #define SMOOTH_RATIO 1.5
+#endif
 
 float shared_irradiance(uint column, uint row, uint rays_a_side) {
   int last = int(rays_a_side) - 1, ix = int(column), iy = int(row);

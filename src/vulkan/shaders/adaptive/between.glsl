@@ -43,6 +43,8 @@ void find_around() {
                            side_is_straight.w && is_uniform(pattern, uvec4(4u, 5u, 9u, 8u)));
 }
 
+bool any_fails() { return !(exists[3] && exists[4] && exists[7] && exists[8]); }  // of the cell's rays
+
 float weights[12];
 
 // Subtracts t (1 - t) / 2 times the mean second difference along a row of rays, as far as there are rays.
@@ -85,6 +87,17 @@ void set_weights(vec2 at, bool along_row, bool along_column) {
     bend(0, 3, 7, 10, amount.y * (1.0 - at.x));
     bend(1, 4, 8, 11, amount.y * at.x);
   }
+}
+
+// Sets the weights of the mean, over a square part of the cell about a place, of what values bend from those that are
+// linear between the part's corners.
+void set_mean_bend(vec2 at, float size) {
+  float amount = any_fails() ? 0.0 : size * size * (1.0 / 12.0);  // the mean of t (1 - t) / 2
+  for (int k = 0; k < 12; ++k) weights[k] = 0.0;
+  bend(2, 3, 4, 5, amount * (1.0 - at.y));
+  bend(6, 7, 8, 9, amount * at.y);
+  bend(0, 3, 7, 10, amount * (1.0 - at.x));
+  bend(1, 4, 8, 11, amount * at.x);
 }
 
 vec4 ray_between() {

@@ -51,7 +51,6 @@ p;
 #define CUT_CELL_MASK 0x1fffffu
 #define CUT_PART_SHIFT 21u
 #define CUT_PARTS_SHIFT 25u
-#define CUT_FINENESS 16.0  // parts of cut cells a side of the grid, at least
 #define MOST_CUT_PARTS 4u
 
 uint item_word(uint item, uint k) { return texelFetch(item_texels, int(ITEM_WORDS / 4u * item + (k >> 2u)))[k & 3u]; }

@@ -194,23 +194,30 @@ Part part;
 #define SECOND_HALF 2u
 
 // Reads where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
-void read_stops(float weights_of[4][12]) {
+void read_stops(float weights_of[4][12], float mean_bend[12]) {
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
     if (c >= crossings_of(item)) continue;
-    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
+    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0)), by = vec2(0.0);
     for (int j = 0; j < 12; ++j) {
       vec2 at = crossing(around[j], c);
       for (int k = 0; k < 4; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
+      by += mean_bend[j] != 0.0 ? mean_bend[j] * at : vec2(0.0);
     }
-    part.stops[c] = sum;
+    for (int k = 0; k < 4; ++k) part.stops[c][k] = sum[k] + by;
   }
 }
 
 // Reads a square part of the cell. Corners of the cell are its rays, of which some may fail.
+// Heights and crossings are linear in the part, and bend in truth. They are moved by the mean of that, as is the light, so
+// that edges, which are chords, let as much light pass as the curves do.
 void read_part(vec2 low, float size) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
-  float weights_of[4][12];
+  float weights_of[4][12], mean_bend[12];
   find_around();
+  set_mean_bend(low + 0.5 * size, size);
+  mean_bend = weights;
+  vec2 by = vec2(0.0);  // of light and height
+  for (int j = 0; j < 12; ++j) by += mean_bend[j] != 0.0 ? mean_bend[j] * rays_around[j].zw : vec2(0.0);
   for (int k = 0; k < 4; ++k) {
     vec2 at = low + size * corners[k];
 #ifdef OCCLUDERS
@@ -218,8 +225,8 @@ void read_part(vec2 low, float size) {
 #endif
     set_weights(at, true, true);
     vec4 ray = ray_between();
-    part.light[k] = max(ray.z, 0.0);
-    part.heights[k] = ray.w;
+    part.light[k] = max(ray.z + by.x, 0.0);
+    part.heights[k] = ray.w + by.y;
     weights_of[k] = weights;
     if (is_on_straight_row(at) || is_on_straight_column(at)) {
       set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
@@ -227,7 +234,7 @@ void read_part(vec2 low, float size) {
     }
     part.pixels[k] = ray.xy - vec2(base);
   }
-  read_stops(weights_of);
+  read_stops(weights_of, mean_bend);
 }
 
 // Values at the first, second and last corner of what is drawn. A parallelogram's sides are the means of opposite sides

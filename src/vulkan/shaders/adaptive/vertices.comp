@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
+#define SMOOTH_RATIO 2.5  // cells are larger than those of `bundle`, and their planes serve this far
 #include "../vertex.glsl"
 #include "pattern_record.glsl"
 
