@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/tasks.h"
@@ -14,6 +15,8 @@ namespace {
 // The part of the squared error that the rays' spacing may spend; the rest is for what the measures of coarse cells do
 // not see. It was chosen, not derived: the papers' lenses come out at 63 dB and better with it (docs/gpu.md).
 constexpr double kBudgetShare = 0.125;
+// The part that cells may spend which are merged as one plane serves them, if all items lie on each other.
+constexpr double kMergeShare = 0.25;
 // The counters are fetched before the pixels.
 constexpr std::uint64_t kCountersBytes = sizeof(std::uint32_t) * kCounters;
 constexpr std::int32_t kRasterTile = 16;  // TILE_SIDE of adaptive/raster.comp
@@ -175,7 +178,7 @@ void AdaptiveFrame::upload_items(const Frame& band) {
 // several for every point, and for every stroke about a point, in each part of a pixel.
 std::uint32_t AdaptiveFrame::list_part() const {
   constexpr std::uint32_t kTurns = 60000, kTurnsAPolygon = 120, kTurnsAStroke = 51, kLeast = 32;
-  if (!job_.dirt && !has_picture()) return TileLists::kMostOfTask;
+  if (!has_occluders()) return TileLists::kMostOfTask;
   const std::uint32_t strokes = job_.dirt ? job_.dirt->most_about_cell() + 1 : 0;
   return std::clamp(kTurns / (kTurnsAPolygon + kTurnsAStroke * strokes), kLeast, TileLists::kMostOfTask);
 }
@@ -196,6 +199,7 @@ void AdaptiveFrame::need_buffers() {
   device_.need(Slot::Rays, kRayBytes * capacity_.rays);
   device_.need(Slot::Crossings, kCrossingBytes * capacity_.rays);
   device_.need(Slot::Vertices, kVertexBytes * capacity_.rays);
+  device_.need(Slot::Blocks, sizeof(float) * kMergedOfRays * (capacity_.rays / kRaysABlock + 1));
   device_.need(Slot::Large, kLargeBytes * capacity_.polygons);
   device_.need(Slot::LargeCorners, kCornerBytes * capacity_.corners);
   device_.need(Slot::CutCells, kCutBytes * capacity_.cut_cells);
@@ -255,6 +259,10 @@ void AdaptiveFrame::list_polygons() {
   device_.end_stage("rays");
   dispatch_indirect(Shader::AdaptiveVertices, kIndirectRays);
   device_.barrier();
+  if (!has_occluders()) {  // which cells.comp looks for in every cell
+    dispatch_indirect(Shader::AdaptiveMerge, kIndirectMerged);
+    device_.barrier();
+  }
   dispatch_indirect(choose(Shader::AdaptiveCells, Shader::AdaptiveCellsOccluded), kIndirectRays);
   device_.barrier();
   device_.end_stage("cells");
@@ -406,6 +414,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
   p.least_peak = static_cast<float>(job_.least_peak);
+  p.merge_error = static_cast<float>(job_.error * std::sqrt(kMergeShare / static_cast<double>(job_.items.size())));
   prepare(frame);
   if (rows_a_band() < frame.height || !grow_until([&] { return try_rows(0, true, image); }))
     draw_in_bands(image, context);

@@ -72,10 +72,8 @@ class AdaptiveFrame {
   [[nodiscard]] std::int32_t small_px() const;  // of AdaptiveParameters
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
   [[nodiscard]] bool has_picture() const { return job_.patterns && job_.patterns->picture != DevicePatterns::kNone; }
-  // The shader for frames with dirt or a picture as the iris, or for those without.
-  [[nodiscard]] Shader choose(Shader clean, Shader occluded) const {
-    return job_.dirt || has_picture() ? occluded : clean;
-  }
+  [[nodiscard]] bool has_occluders() const { return job_.dirt || has_picture(); }
+  [[nodiscard]] Shader choose(Shader clean, Shader occluded) const { return has_occluders() ? occluded : clean; }
   [[nodiscard]] Program for_iris(Program program) const {
     program.has_picture = has_picture();
     return program;

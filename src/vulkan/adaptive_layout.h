@@ -19,6 +19,7 @@ struct AdaptiveParameters {
   float budget = 0, least_peak = 0, front_gap_mm = 0;
   std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
   std::int32_t small_px = 0;
+  float merge_error = 0;
 };
 
 // Bits of the flags, besides kCircle.
@@ -63,5 +64,6 @@ static_assert(sizeof(DirtHeader) == 52);
 inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;
 inline constexpr std::uint32_t kRaysABlock = 64;
+inline constexpr std::uint32_t kMergedOfRays = 4;  // BLOCKS_OF_RAYS
 
 }  // namespace contrejour::inline internal::vulkan

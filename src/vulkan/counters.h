@@ -33,6 +33,6 @@ enum Overflow : std::uint32_t {
 
 // Bytes of Slot::Indirect.
 inline constexpr std::uint64_t kIndirectRays = 0, kIndirectOpen = 0, kIndirectCut = 12, kIndirectPolygons = 24,
-                               kIndirectWide = 36, kIndirectTiles = 48, kIndirectBytes = 60;
+                               kIndirectWide = 36, kIndirectTiles = 48, kIndirectMerged = 60, kIndirectBytes = 72;
 
 }  // namespace contrejour::inline internal::vulkan

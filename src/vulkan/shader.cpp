@@ -13,6 +13,7 @@ namespace {
 #include "vulkan/adaptive_join_parts.inc"
 #include "vulkan/adaptive_measure.inc"
 #include "vulkan/adaptive_measure_occluded.inc"
+#include "vulkan/adaptive_merge.inc"
 #include "vulkan/adaptive_raster.inc"
 #include "vulkan/adaptive_raster_occluded.inc"
 #include "vulkan/adaptive_raster_patterned.inc"
@@ -68,6 +69,7 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::AdaptiveBudget: return kAdaptiveBudgetCode;
     case Shader::AdaptiveTrace: return kAdaptiveTraceCode;
     case Shader::AdaptiveVertices: return kAdaptiveVerticesCode;
+    case Shader::AdaptiveMerge: return kAdaptiveMergeCode;
     case Shader::AdaptiveCells: return kAdaptiveCellsCode;
     case Shader::AdaptiveCut: return kAdaptiveCutCode;
     case Shader::AdaptiveCutSize: return kAdaptiveCutSizeCode;

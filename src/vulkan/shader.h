@@ -35,6 +35,7 @@ enum class Shader : std::uint8_t {
   AdaptiveBudget,
   AdaptiveTrace,
   AdaptiveVertices,
+  AdaptiveMerge,
   AdaptiveCells,
   AdaptiveCut,
   AdaptiveCutSize,
@@ -50,7 +51,7 @@ enum class Shader : std::uint8_t {
   StarburstNear,
   Rgba,
 };
-inline constexpr std::size_t kShaders = 36;
+inline constexpr std::size_t kShaders = 37;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
 // surfaces, for those of `adaptive` whether the iris is a picture, for those of `tiled` the interpolation.

@@ -26,6 +26,7 @@
 #define DISPATCH_POLYGONS 2u
 #define DISPATCH_WIDE 3u
 #define DISPATCH_TILES 4u
+#define DISPATCH_MERGED 5u  // `adaptive`: that lists merged cells
 #define DISPATCH_ROW 1024u  // groups a row
 
 // A group of a dispatch in rows, by its number.

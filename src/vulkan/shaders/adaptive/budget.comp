@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 256) in;
 #include "common.glsl"
+#include "merged.glsl"
 
 #define FEWEST_CELLS 16u           // with 8 the fluxes of dim ghosts, which many cells do not better, are off by per cents
 #define MOST_CELLS 1024u
@@ -175,4 +176,5 @@ void main() {
   counters[COUNT_BLOCKS] = blocks;
   counters[COUNT_PEAK] = floatBitsToUint(peak);
   set_dispatch(DISPATCH_RAYS, fits ? blocks : 0u);
+  set_dispatch(DISPATCH_MERGED, fits ? (blocks * BLOCKS_OF_RAYS + 63u) / 64u : 0u);
 }

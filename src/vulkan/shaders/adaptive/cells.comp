@@ -15,6 +15,7 @@ layout(local_size_x = 64) in;
 #include "../coverage.glsl"
 #endif
 #include "state.glsl"
+#include "merged.glsl"
 
 // The second difference of the light along a row or column of rays; 0 if there are not three.
 float second_difference(ivec2 at, ivec2 along, inout float count) {
@@ -76,8 +77,20 @@ void list_cut(uint parts) {
     cut_cells[at + k] = uvec2(item, own | (k << CUT_PART_SHIFT) | ((parts - 1u) << CUT_PARTS_SHIFT));
 }
 
+// Whether merge.comp has drawn the cell.
+bool is_merged() {
+  uvec2 at = uvec2(own % side, own / side), block = at / BLOCK_CELLS, half_block = at / (BLOCK_CELLS / 2u) & 1u;
+  if (max(block.x, block.y) >= blocks_a_side(side)) return false;
+  uint number = BLOCKS_OF_RAYS * offset_of(item) + block.y * blocks_a_side(side) + block.x;
+  uint mask = uint(texelFetch(block_texels, int(number)).x);
+  return (mask & (WHOLE_BLOCK | 1u << (2u * half_block.y + half_block.x))) != 0u;
+}
+
 void main() {
   if (!find_ray() || own % side + 1u == side || own / side + 1u == side) return;
+#ifndef OCCLUDERS
+  if (is_merged()) return;
+#endif
 #ifdef OCCLUDERS
   grid_box = state_box(item);
 #endif

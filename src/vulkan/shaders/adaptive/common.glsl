@@ -40,6 +40,7 @@ layout(push_constant) uniform Parameters {
   float front_gap;      // from the entrance plane to that of dirt on the front, mm
   uint picture;         // as the iris: its pattern's number, of which the next one is its distances; 0: none
   int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
+  float merge_error;    // of pixels, in peaks, that a plane over several cells may make
 }
 p;
 

@@ -19,8 +19,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define LARGEST_ROUGHNESS 0.5             // the mean squared slope by pixel of a pattern
-#define MEAN_SQUARED_ARCH (8.0 / 15.0)    // of a parabola of height 1 over its chord
-#define SQUARED_ABOUT_MEAN (4.0 / 45.0)   // the same about its mean
+#define SQUARED_ABOUT_MEAN (4.0 / 45.0)   // of a parabola of height 1
+#define SIDES_PART 0.3                    // of the bends of sides that edges show; chosen, not derived
 
 // Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at
 // which it crosses the stop.
@@ -151,24 +151,26 @@ uint ray_inside() {
   return 16u * at.y + at.x;
 }
 
-// The mean squared distance, along an edge in a cell, of the edge that is drawn from the one where a function is 0. The
-// function is linear in each part of the grid and has the right mean there; the edge's image is straight, and bends in
-// truth. x, y: second differences of the function; at: its values at the corners.
+// The squared distances below are means over the cell, of an edge that is drawn from the one that it stands for.
+// Straight sides of cells and parts, whose images bend.
+float squared_sag_of_sides() {
+  uint k = ray_inside();
+  vec2 x = vec2(1.0), y = vec2(1.0);
+  if (has_neighbours(k, 1u)) x = places[k - 1u] - 2.0 * places[k] + places[k + 1u];
+  if (has_neighbours(k, 16u)) y = places[k - 16u] - 2.0 * places[k] + places[k + 16u];
+  return SIDES_PART * (dot(x, x) + dot(y, y)) / 64.0;
+}
+
+// An edge where a function is 0 that is linear in each part of the grid, with the right mean. x, y: second differences of
+// the function; at: its values at the corners.
 float squared_edge_sag(uint k, vec4 at, float x, float y) {
-  uint inside = ray_inside();
   vec2 slope = 0.5 * vec2(at.y - at.x + at.z - at.w, at.w - at.x + at.z - at.y);
   float bend = abs(x) + abs(y) + abs(at.x - at.y + at.z - at.w);
   vec2 along_x = 0.5 * (places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u]);
   vec2 along_y = 0.5 * (places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u]);
   float cells = TYPICAL_BEND * bend / 8.0 / max(dot(slope, slope), 1e-12);
   float displaced = min(cells * length(slope.x * along_x + slope.y * along_y), length(along_x) + length(along_y));
-  vec2 along = vec2(-slope.y, slope.x) / max(max(abs(slope.x), abs(slope.y)), 1e-12);  // from side to side
-  vec2 edge = along.x * along_x + along.y * along_y;
-  vec2 of_image = along.x * along.x * (places[inside - 1u] - 2.0 * places[inside] + places[inside + 1u]) +
-                  along.y * along.y * (places[inside - 16u] - 2.0 * places[inside] + places[inside + 16u]) +
-                  2.0 * along.x * along.y * (places[k] - places[k + 1u] + places[k + 17u] - places[k + 16u]);
-  float arch = abs(cross2(edge, of_image)) / max(8.0 * length(edge), 1e-12);
-  return SQUARED_ABOUT_MEAN * displaced * displaced + MEAN_SQUARED_ARCH * arch * arch;
+  return SQUARED_ABOUT_MEAN * displaced * displaced;
 }
 
 bool has_edge(vec4 at) {
@@ -180,7 +182,7 @@ float squared_sag(uint k) {
   uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
   uint inside = ray_inside();
   if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return UNKNOWN_SAG_SQUARED;
-  float squared = 0.0;
+  float squared = squared_sag_of_sides();
   vec4 rim = vec4(rims[v.x], rims[v.y], rims[v.z], rims[v.w]);
   if (has_edge(rim - 1.0))
     squared += squared_edge_sag(k, rim, rims[inside - 1u] - 2.0 * rims[inside] + rims[inside + 1u],

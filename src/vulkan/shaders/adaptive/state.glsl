@@ -103,11 +103,13 @@ int patterned_state(uvec4 v, uint crossing_count, uint pattern) {
 }
 
 // Sets what a cell's polygons have in common.
-void set_cell(uvec4 v) {
+void set_block(uvec4 v, uint of_cells) {
   vec2 near = failed(ray_of(v.x)) ? ray_of(v.z).xy : ray_of(v.x).xy;
   base = ivec2(clamp(floor(near), vec2(0.0), vec2(p.width, p.height)));
   vec4 box = state_box(item);
   float cells = float(side - 1u);
-  gain = state_gain(item, box.xy + box.zw * (vec2(own % side, own / side) + 0.5) / cells);
+  gain = state_gain(item, box.xy + box.zw * (vec2(own % side, own / side) + 0.5 * float(of_cells)) / cells);
   triangle_weight = 0.5 * box.z * box.w / (cells * cells) * item_irradiance(item);
 }
+
+void set_cell(uvec4 v) { set_block(v, 1u); }
