@@ -12,14 +12,20 @@ int corner_count, first_corner = 0;
 vec2 few[FEW_CORNERS];
 bool has_few;
 
-// The triangle of rays that is clipped: relative heights, and where the rays cross the stop. A parallelogram is described
-// by the triangle of its first, second and last corner: functions are linear over both.
+// The triangle of rays that is clipped: relative heights, and where the rays cross the stop. A quadrilateral is described by
+// its first, second and last corner, and by how far the third one is from making it a parallelogram; functions are
+// bilinear in it.
 float heights_of_triangle[3];
 vec2 stops_of_triangle[MAX_CROSSINGS][3];
-#ifdef PARALLELOGRAMS
-bool is_parallelogram = false;
+#ifdef QUADRILATERALS
+bool is_quad = false;
+float height_twist = 0.0;
+vec2 stop_twists[MAX_CROSSINGS];
+vec2 twist_of(uint c) { return is_quad ? stop_twists[c] : vec2(0.0); }
 #else
-const bool is_parallelogram = false;
+const bool is_quad = false;
+const float height_twist = 0.0;
+vec2 twist_of(uint c) { return vec2(0.0); }
 #endif
 
 void append_few(inout vec2 next[FEW_CORNERS], inout int count, int most, bool appends, vec2 corner) {
@@ -28,15 +34,21 @@ void append_few(inout vec2 next[FEW_CORNERS], inout int count, int most, bool ap
   count += appends ? 1 : 0;
 }
 
-void cut_few(float at_0, float at_1, float at_2) {
+// A function at a place in (u, v), from its values at the corners.
+float value_between(vec2 at, float at_0, float at_1, float at_2, float twist) {
+  float value = at_0 + at.x * (at_1 - at_0) + at.y * (at_2 - at_0);
+  return is_quad ? value + at.x * at.y * twist : value;
+}
+
+void cut_few(float at_0, float at_1, float at_2, float twist) {
   vec2 next[FEW_CORNERS] = few;
   int count = 0;
   vec2 a = few[0];
-  float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
+  float fa = value_between(a, at_0, at_1, at_2, twist);
   for (int k = 0; k < FEW_CORNERS - 1; ++k) {  // one corner more leaves the cut
     bool exists = k < corner_count;
     vec2 b = k + 1 >= corner_count ? few[0] : few[k + 1];
-    float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
+    float fb = value_between(b, at_0, at_1, at_2, twist);
     append_few(next, count, k + 1, exists && fa <= 0.0, a);
     append_few(next, count, k + 1, exists && (fa <= 0.0) != (fb <= 0.0), a + (b - a) * (fa / (fa - fb)));
     a = b;
@@ -62,14 +74,14 @@ void end_cuts() {
 
 // Each turn of the loop writes a corner, or the point at which the edge from it crosses, so that one place writes:
 // lavapipe executes this for polygons of few corners, too.
-void cut_many(float at_0, float at_1, float at_2) {
+void cut_many(float at_0, float at_1, float at_2, float twist) {
   int count = 0, to = first_corner == 0 ? MAX_CORNERS : 0;
   vec2 a = polygon[first_corner];
-  float fa = at_0 + a.x * (at_1 - at_0) + a.y * (at_2 - at_0);
+  float fa = value_between(a, at_0, at_1, at_2, twist);
   for (int k = 0; k < 2 * corner_count; ++k) {
     bool is_crossing = (k & 1) != 0;
     vec2 b = polygon[first_corner + (k / 2 + 1 == corner_count ? 0 : k / 2 + 1)];
-    float fb = at_0 + b.x * (at_1 - at_0) + b.y * (at_2 - at_0);
+    float fb = value_between(b, at_0, at_1, at_2, twist);
     bool appends = is_crossing ? (fa <= 0.0) != (fb <= 0.0) : fa <= 0.0;
     if (appends && count < MAX_CORNERS) polygon[to + count++] = is_crossing ? a + (b - a) * (fa / (fa - fb)) : a;
     a = is_crossing ? b : a;
@@ -79,25 +91,26 @@ void cut_many(float at_0, float at_1, float at_2) {
   corner_count = count;
 }
 
-// Keeps the part where a function that is linear over the triangle is <= 0 (Sutherland-Hodgman).
-void cut(float at_0, float at_1, float at_2) {
-  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0 && (!is_parallelogram || at_1 + at_2 - at_0 <= 0.0)) return;
+// Keeps the part where a function that is linear along the sides is <= 0 (Sutherland-Hodgman).
+void cut(float at_0, float at_1, float at_2, float twist) {
+  if (at_0 <= 0.0 && at_1 <= 0.0 && at_2 <= 0.0 && (!is_quad || at_1 + at_2 - at_0 + twist <= 0.0)) return;
   if (corner_count >= FEW_CORNERS) keep_few();
   if (has_few)
-    cut_few(at_0, at_1, at_2);
+    cut_few(at_0, at_1, at_2, twist);
   else
-    cut_many(at_0, at_1, at_2);
+    cut_many(at_0, at_1, at_2, twist);
 }
 
-void clip_by_edge(vec2 stop[3], vec2 normal, float half_extent) {
-  cut(dot(normal, stop[0]) - half_extent, dot(normal, stop[1]) - half_extent, dot(normal, stop[2]) - half_extent);
+void clip_by_edge(vec2 stop[3], vec2 twist, vec2 normal, float half_extent) {
+  cut(dot(normal, stop[0]) - half_extent, dot(normal, stop[1]) - half_extent, dot(normal, stop[2]) - half_extent,
+      dot(normal, twist));
 }
 
 // Clips by a straight bound of a normal and an extent, or by tangents of a circle of a centre and a radius. Tangents of
 // a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over sqrt(r).
-void clip_by_bound(vec2 stop[3], bool straight, vec2 place, float extent) {
-  vec2 middle = (is_parallelogram ? 0.5 * (stop[1] + stop[2]) : (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0)) - place;
-  float half_extent = 0.0;  // the last corner of a parallelogram is as far from the middle as the first
+void clip_by_bound(vec2 stop[3], vec2 twist, bool straight, vec2 place, float extent) {
+  vec2 middle = (is_quad ? 0.5 * (stop[1] + stop[2]) : (stop[0] + stop[1] + stop[2]) * (1.0 / 3.0)) - place;
+  float half_extent = is_quad ? length(stop[1] + stop[2] - stop[0] + twist - place - middle) : 0.0;
   for (int k = 0; k < 3; ++k) half_extent = max(half_extent, length(stop[k] - place - middle));
   float distance = length(middle);
   float half_angle = distance > 1.5 * half_extent ? asin(half_extent / distance) : 3.14159265;
@@ -107,7 +120,7 @@ void clip_by_bound(vec2 stop[3], bool straight, vec2 place, float extent) {
   for (int k = 0; k < tangents; ++k) {
     float angle = middle_angle + half_angle * (float(2 * k + 1) / float(tangents) - 1.0);
     vec2 normal = straight ? place : vec2(cos(angle), sin(angle));
-    clip_by_edge(stop, normal, straight ? extent : extent + dot(normal, place));
+    clip_by_edge(stop, twist, normal, straight ? extent : extent + dot(normal, place));
   }
 }
 
@@ -124,7 +137,7 @@ void clip_by_iris(uint c) {
     for (uint k = 0u; k < count; ++k) {
       uint b = from + k;
       bool clips = is_beyond(b, stop[0]) || is_beyond(b, stop[1]) || is_beyond(b, stop[2]);
-      if (is_parallelogram) clips = clips || is_beyond(b, stop[1] + stop[2] - stop[0]);
+      if (is_quad) clips = clips || is_beyond(b, stop[1] + stop[2] - stop[0] + twist_of(c));
       left |= clips ? 1u << k : 0u;
     }
     for (; left != 0u; left &= left - 1u) {
@@ -132,7 +145,7 @@ void clip_by_iris(uint c) {
       vec4 line = bound_half(2u * b), circle = bound_half(2u * b + 1u);
       bool straight = !is_circle() && line.w != 0.0;
       vec2 place = is_circle() ? vec2(0.0) : straight ? line.xy : circle.xy;
-      clip_by_bound(stop, straight, place, is_circle() ? 1.0 : straight ? line.z : circle.z);
+      clip_by_bound(stop, twist_of(c), straight, place, is_circle() ? 1.0 : straight ? line.z : circle.z);
     }
   }
 }
@@ -145,17 +158,17 @@ void set_triangle(uvec3 t, uint crossing_count) {
   }
 }
 
-// The whole triangle or parallelogram, in (u, v).
+// The whole triangle or quadrilateral, in (u, v).
 void begin_triangle() {
   for (int k = 0; k < FEW_CORNERS; ++k)
-    few[k] = is_parallelogram ? vec2(float(k == 1 || k == 2), float(k == 2 || k == 3)) : vec2(float(k == 1), float(k == 2));
+    few[k] = is_quad ? vec2(float(k == 1 || k == 2), float(k == 2 || k == 3)) : vec2(float(k == 1), float(k == 2));
   has_few = true;
-  corner_count = is_parallelogram ? 4 : 3;
+  corner_count = is_quad ? 4 : 3;
 }
 
 // Leaves the open part of the triangle of rays.
 void clip_triangle(uint crossing_count) {
-  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
+  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0, height_twist);
   for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_iris(c);
   end_cuts();
 }

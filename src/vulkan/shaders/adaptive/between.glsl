@@ -43,8 +43,6 @@ void find_around() {
                            side_is_straight.w && is_uniform(pattern, uvec4(4u, 5u, 9u, 8u)));
 }
 
-bool any_fails() { return !(exists[3] && exists[4] && exists[7] && exists[8]); }  // of the cell's rays
-
 float weights[12];
 
 // Subtracts t (1 - t) / 2 times the mean second difference along a row of rays, as far as there are rays.
@@ -89,15 +87,28 @@ void set_weights(vec2 at, bool along_row, bool along_column) {
   }
 }
 
-// Sets the weights of the mean, over a square part of the cell about a place, of what values bend from those that are
-// linear between the part's corners.
-void set_mean_bend(vec2 at, float size) {
-  float amount = any_fails() ? 0.0 : size * size * (1.0 / 12.0);  // the mean of t (1 - t) / 2
-  for (int k = 0; k < 12; ++k) weights[k] = 0.0;
-  bend(2, 3, 4, 5, amount * (1.0 - at.y));
-  bend(6, 7, 8, 9, amount * at.y);
-  bend(0, 3, 7, 10, amount * (1.0 - at.x));
-  bend(1, 4, 8, 11, amount * at.x);
+// Adds what values bend at a ray along a row or column, as far as there are rays.
+void add_bend(int before, int at, int after, float amount) {
+  if (!exists[before] || !exists[after]) return;
+  weights[before] -= amount;
+  weights[at] += 2.0 * amount;
+  weights[after] -= amount;
+}
+
+// Moves values at a corner of a part by the mean of what they bend from the linear in it, as the rays about the cell's
+// corners show: parts that share a corner move it alike.
+void add_mean_bend(vec2 at, float size) {
+  if (!(exists[3] && exists[4] && exists[7] && exists[8])) return;
+  float amount = size * size * (1.0 / 12.0);  // the mean of t (1 - t) / 2
+  vec4 by = amount * vec4((1.0 - at.x) * (1.0 - at.y), at.x * (1.0 - at.y), (1.0 - at.x) * at.y, at.x * at.y);
+  add_bend(2, 3, 4, by.x);
+  add_bend(0, 3, 7, by.x);
+  add_bend(3, 4, 5, by.y);
+  add_bend(1, 4, 8, by.y);
+  add_bend(6, 7, 8, by.z);
+  add_bend(3, 7, 10, by.z);
+  add_bend(7, 8, 9, by.w);
+  add_bend(4, 8, 11, by.w);
 }
 
 vec4 ray_between() {

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
 #define READ_TEXELS
-#define PARALLELOGRAMS
+#define QUADRILATERALS
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
@@ -18,10 +18,9 @@ layout(local_size_x = 64) in;
 #include "state.glsl"
 #include "between.glsl"
 
-// What is drawn has straight sides: a triangle, or a quadrilateral that counts as a parallelogram except for its
-// corners' pixels.
+// A triangle or quadrilateral is drawn, as polygon.glsl describes them.
 vec2 pixels[3];
-vec2 twist = vec2(0.0);  // of the quadrilateral: its third corner's pixel, from that of the parallelogram
+vec2 twist = vec2(0.0);
 float area_px;           // of the whole
 float transmission;      // its mean, or twice that of a quadrilateral
 
@@ -151,7 +150,7 @@ void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
 #endif
   bool is_small = is_point || is_line;
   float value = is_small ? flux * fraction : flux / area_px;
-  vec2 middle = is_parallelogram ? 0.5 * (pixels[1] + pixels[2]) + 0.25 * twist
+  vec2 middle = is_quad ? 0.5 * (pixels[1] + pixels[2]) + 0.25 * twist
                                  : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
   if (is_small) middle = vec2(0.0);
   list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
@@ -161,7 +160,7 @@ void list_triangle(vec2 gradient) {
   begin_triangle();
   clip_triangle(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
-  float fraction = (is_parallelogram ? 0.5 : 1.0) * abs(twice_polygon_area());  // the triangle's area is 1/2
+  float fraction = (is_quad ? 0.5 : 1.0) * abs(twice_polygon_area());  // the triangle's area is 1/2
   find_occluders();
   if (is_dimmed) {
     for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
@@ -194,16 +193,15 @@ Part part;
 #define SECOND_HALF 2u
 
 // Reads where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
-void read_stops(float weights_of[4][12], float mean_bend[12]) {
+void read_stops(float weights_of[4][12]) {
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
     if (c >= crossings_of(item)) continue;
-    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0)), by = vec2(0.0);
+    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
     for (int j = 0; j < 12; ++j) {
       vec2 at = crossing(around[j], c);
       for (int k = 0; k < 4; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
-      by += mean_bend[j] != 0.0 ? mean_bend[j] * at : vec2(0.0);
     }
-    for (int k = 0; k < 4; ++k) part.stops[c][k] = sum[k] + by;
+    part.stops[c] = sum;
   }
 }
 
@@ -212,58 +210,52 @@ void read_stops(float weights_of[4][12], float mean_bend[12]) {
 // that edges, which are chords, let as much light pass as the curves do.
 void read_part(vec2 low, float size) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
-  float weights_of[4][12], mean_bend[12];
+  float weights_of[4][12];
   find_around();
-  set_mean_bend(low + 0.5 * size, size);
-  mean_bend = weights;
-  vec2 by = vec2(0.0);  // of light and height
-  for (int j = 0; j < 12; ++j) by += mean_bend[j] != 0.0 ? mean_bend[j] * rays_around[j].zw : vec2(0.0);
   for (int k = 0; k < 4; ++k) {
     vec2 at = low + size * corners[k];
 #ifdef OCCLUDERS
     part.fronts[k] = front_at(at);
 #endif
+    set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
+    part.pixels[k] = ray_between().xy - vec2(base);
     set_weights(at, true, true);
+    add_mean_bend(at, size);
     vec4 ray = ray_between();
-    part.light[k] = max(ray.z + by.x, 0.0);
-    part.heights[k] = ray.w + by.y;
+    part.light[k] = max(ray.z, 0.0);
+    part.heights[k] = ray.w;
     weights_of[k] = weights;
-    if (is_on_straight_row(at) || is_on_straight_column(at)) {
-      set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
-      ray.xy = ray_between().xy;
-    }
-    part.pixels[k] = ray.xy - vec2(base);
   }
-  read_stops(weights_of, mean_bend);
+  read_stops(weights_of);
 }
 
-// Values at the first, second and last corner of what is drawn. A parallelogram's sides are the means of opposite sides
-// of the part.
+// Values at the corners of what is drawn: the first, second and last one.
 vec2[3] drawn_corners(vec2 at[4], uint how) {
-  vec2 excess = how == WHOLE ? 0.25 * (at[0] - at[1] + at[2] - at[3]) : vec2(0.0);
-  return vec2[3](at[0] - excess, how == SECOND_HALF ? at[2] : at[1] + excess,
-                 how == FIRST_HALF ? at[2] : at[3] + excess);
+  return vec2[3](at[0], how == SECOND_HALF ? at[2] : at[1], how == FIRST_HALF ? at[2] : at[3]);
 }
+vec2 twist_between(vec2 at[4]) { return at[0] - at[1] + at[2] - at[3]; }
 
 void set_drawn(uint how) {
-  const vec2 none[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
-  vec2 heights[4] = none;
-  for (int k = 0; k < 4; ++k) heights[k].x = part.heights[k];
-  vec2 heights_of_drawn[3] = drawn_corners(heights, how);
-  for (int k = 0; k < 3; ++k) heights_of_triangle[k] = heights_of_drawn[k].x;
-  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
-    if (c < crossings_of(item)) stops_of_triangle[c] = drawn_corners(part.stops[c], how);
+  vec4 heights = part.heights;
+  heights_of_triangle =
+      float[3](heights.x, how == SECOND_HALF ? heights.z : heights.y, how == FIRST_HALF ? heights.z : heights.w);
+  height_twist = heights.x - heights.y + heights.z - heights.w;
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
+    if (c >= crossings_of(item)) continue;
+    stops_of_triangle[c] = drawn_corners(part.stops[c], how);
+    stop_twists[c] = twist_between(part.stops[c]);
+  }
 #ifdef OCCLUDERS
   front_of_triangle = drawn_corners(part.fronts, how);
 #endif
-  is_parallelogram = how == WHOLE;
+  is_quad = how == WHOLE;
   vec2 a = part.pixels[0], b = part.pixels[1], c = part.pixels[2], d = part.pixels[3];
   float first_half = (part.light.x + part.light.y + part.light.z) / 3.0;
   float second_half = (part.light.x + part.light.z + part.light.w) / 3.0;
   transmission = (how == SECOND_HALF ? 0.0 : first_half) + (how == FIRST_HALF ? 0.0 : second_half);
-  pixels = vec2[3](a, how == SECOND_HALF ? c : b, how == FIRST_HALF ? c : d);
-  twist = is_parallelogram ? a - b + c - d : vec2(0.0);
-  area_px = 0.5 * abs(is_parallelogram ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
+  pixels = drawn_corners(part.pixels, how);
+  twist = is_quad ? twist_between(part.pixels) : vec2(0.0);
+  area_px = 0.5 * abs(is_quad ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
 }
 
 // Patterns and occluders are linear over triangles, and the light of a quadrilateral that is about to fold is uneven.
