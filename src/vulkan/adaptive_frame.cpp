@@ -2,12 +2,10 @@
 #include "vulkan/adaptive_frame.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 
 #include "base/tasks.h"
-#include "vulkan/dirt_words.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {
@@ -32,13 +30,6 @@ void copy_rows(const float* from, int rows, Image& image, int first_row) {
 
 std::uint32_t narrow(std::uint64_t value) { return static_cast<std::uint32_t>(value); }
 
-// Levels of an image pyramid (DownsampledPicture).
-std::uint32_t levels_of(std::uint32_t side) {
-  std::uint32_t levels = 1;
-  for (; side % 2 == 0 && side > 2; side /= 2) ++levels;
-  return levels;
-}
-
 // The surfaces that a tracer of all paths must handle.
 PathGeometry geometry_of(const DevicePaths& paths) {
   PathGeometry most = PathGeometry::Spheres;
@@ -46,33 +37,12 @@ PathGeometry geometry_of(const DevicePaths& paths) {
   return most;
 }
 
-// The records of all patterns, followed by their tables.
-std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
-  std::vector<std::uint32_t> table_at;
-  std::size_t size = sizeof(PatternRecord) / sizeof(std::uint32_t) * all.patterns.size();
-  for (const std::vector<float>& table : all.tables) {
-    table_at.push_back(narrow(size));
-    size += table.size();
-  }
-  std::vector<std::uint32_t> words;
-  words.reserve(size);
-  for (const DevicePattern& p : all.patterns) {
-    const PatternRecord record{table_at[p.table], p.side,      p.side == 0 ? 0 : levels_of(p.side),
-                               p.outer_radius,    p.scale,     p.level_from,
-                               p.roughness,       p.difference};
-    const auto numbers = std::bit_cast<std::array<std::uint32_t, 8>>(record);
-    words.insert(words.end(), numbers.begin(), numbers.end());
-  }
-  for (const std::vector<float>& table : all.tables)
-    for (const float number : table) words.push_back(std::bit_cast<std::uint32_t>(number));
-  return words;
-}
-
 }  // namespace
 
 AdaptiveFrame::AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
-                             StarburstStage& starbursts)
-    : device_(device), info_(info), job_(job), kept_(kept), capacity_(kept.capacity), starbursts_(starbursts) {
+                             StopTables& tables, StarburstStage& starbursts)
+    : device_(device), info_(info), job_(job), kept_(kept), tables_(tables), capacity_(kept.capacity),
+      starbursts_(starbursts) {
   for (const Need& need : needs()) *need.capacity = std::min(*need.capacity, device_.most_of(need.slot, need.bytes));
 }
 
@@ -108,27 +78,6 @@ void AdaptiveFrame::upload_paths() {
   device_.upload(Slot::Tables, tables);
   work_.uploaded_bytes += 4 * (data.floats().size() + data.integers().size() + tables.size());
   kept_.paths = job_.paths;
-}
-
-void AdaptiveFrame::upload_patterns() {
-  if (!job_.patterns || kept_.patterns == job_.patterns) return;
-  kept_.patterns = nullptr;
-  const std::vector<std::uint32_t> words = pattern_words(*job_.patterns);
-  const std::uint64_t bytes = sizeof(std::uint32_t) * words.size();
-  if (bytes > info_.storage_range_bytes)
-    throw vk::OutOfDeviceMemoryError("the stop patterns of a frame do not fit into the device's buffers");
-  device_.upload(Slot::Patterns, words);
-  work_.uploaded_bytes += bytes;
-  kept_.patterns = job_.patterns;
-}
-
-void AdaptiveFrame::upload_dirt() {
-  if (!job_.dirt || kept_.dirt == job_.dirt) return;
-  kept_.dirt = nullptr;
-  const std::vector<std::uint32_t> words = dirt_words(*job_.dirt);
-  device_.upload(Slot::Dirt, words);
-  work_.uploaded_bytes += sizeof(std::uint32_t) * words.size();
-  kept_.dirt = job_.dirt;
 }
 
 void AdaptiveFrame::upload_items(const Frame& band) {
@@ -393,23 +342,21 @@ std::int32_t AdaptiveFrame::small_px() const {
 }
 
 std::uint32_t AdaptiveFrame::flags() const {
-  std::uint32_t bits = job_.iris.is_circle() ? kCircle : 0U;
-  if (job_.dirt) bits |= job_.dirt->on_front ? kDirtOnFront : kDirtInStop;
-  return bits;
+  const std::uint32_t bits = job_.iris.is_circle() ? kCircle : 0U;
+  return bits | dirt_flags(job_.dirt.get());
 }
 
 DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   const Frame& frame = job_.frame;
   upload_paths();
-  upload_patterns();
-  upload_dirt();
+  work_.uploaded_bytes += tables_.upload(device_, info_, job_.patterns, job_.dirt);
   geometry_ = geometry_of(*job_.paths);
   AdaptiveParameters& p = parameters_;
   p.item_count = narrow(job_.items.size());
   p.group_count = narrow(job_.groups.size());
   p.level = kSearchLevels;
   p.flags = flags();
-  p.picture = has_picture() ? job_.patterns->picture + 1 : 0U;
+  p.picture = picture_number(job_.patterns.get());
   p.small_px = small_px();
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);

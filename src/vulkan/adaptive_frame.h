@@ -14,6 +14,7 @@
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
 #include "vulkan/starburst_stage.h"
+#include "vulkan/stop_tables.h"
 #include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -33,15 +34,13 @@ struct AdaptiveKept {
   AdaptiveCapacity capacity;
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none
   std::vector<PathPlace> places;  // by path
-  std::shared_ptr<const DevicePatterns> patterns;  // that are uploaded
-  std::shared_ptr<const DeviceDirt> dirt;  // that is uploaded
 };
 
 class AdaptiveFrame {
  public:
   // All must outlive the frame.
   AdaptiveFrame(DeviceContext& device, const DeviceInfo& info, const AdaptiveJob& job, AdaptiveKept& kept,
-                StarburstStage& starbursts);
+                StopTables& tables, StarburstStage& starbursts);
 
   // Replaces the image's values, if the job reads them. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
@@ -58,8 +57,6 @@ class AdaptiveFrame {
   [[nodiscard]] std::array<Need, 5> needs() const;
   [[nodiscard]] int rows_a_band() const;
   void upload_paths();
-  void upload_patterns();
-  void upload_dirt();
   void upload_items(const Frame& band);
   void need_buffers();
   void clear_search();
@@ -101,6 +98,7 @@ class AdaptiveFrame {
   const DeviceInfo& info_;
   const AdaptiveJob& job_;
   AdaptiveKept& kept_;
+  StopTables& tables_;
   AdaptiveCapacity& capacity_;
   StarburstStage& starbursts_;
   PathGeometry geometry_ = PathGeometry::General;

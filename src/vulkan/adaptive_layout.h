@@ -22,9 +22,6 @@ struct AdaptiveParameters {
   float merge_error = 0;
 };
 
-// Bits of the flags, besides kCircle.
-enum AdaptiveFlags : std::uint32_t { kDirtInStop = 16, kDirtOnFront = 32 };
-
 struct ItemRecord {
   std::uint32_t reals_at = 0, integers_at = 0, step_count = 0, group = 0, crossing_count = 0;
   float irradiance = 0;
@@ -42,24 +39,6 @@ static_assert(sizeof(ItemRecord) == 96);
 struct GroupRecord {
   std::uint32_t first = 0, count = 0, middle = 0, unused = 0;
 };
-
-// A pattern of the stop, as shaders/adaptive/pattern.glsl reads it.
-struct PatternRecord {
-  std::uint32_t table_at = 0, side = 0, levels = 0;
-  float outer_radius = 0, scale = 0, level_from = 0, roughness = 0, difference = 0;
-};
-static_assert(sizeof(PatternRecord) == 32);
-
-// The header of the dirt, as shaders/adaptive/dirt.glsl reads it; the tables begin at these words.
-struct DirtHeader {
-  float extent_mm = 0;
-  std::uint32_t cells = 0;
-  float mm_a_unit = 0, edges_per_mm = 0;
-  std::uint32_t strokes_at = 0, first_at = 0, of_cell_at = 0, blocked_at = 0, dirty_at = 0;
-  std::uint32_t picture_at = 0, picture_width = 0, picture_height = 0;  // picture_at: 0 if there is none
-  float clear_radius_mm = 0;
-};
-static_assert(sizeof(DirtHeader) == 52);
 
 inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;

@@ -33,7 +33,7 @@ constexpr double kNanoseconds = 1e9;  // a second
 constexpr std::uint64_t kInvocationsAGroup = 64;
 constexpr std::uint32_t kMostStages = 256;
 constexpr std::uint32_t kGeometryConstant = 0;  // the number of GEOMETRY in shaders/trace.glsl
-constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders/adaptive/common.glsl
+constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders/stop/tables.glsl
 constexpr std::uint32_t kInterpolationConstant = 2;  // that of INTERPOLATION in shaders/primitive.glsl
 constexpr std::uint32_t kProcessorConstant = 3;  // that of ON_PROCESSOR in shaders/buffers.glsl
 

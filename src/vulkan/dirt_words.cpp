@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "vulkan/adaptive_layout.h"
+#include "vulkan/stop_layout.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {

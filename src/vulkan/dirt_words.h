@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lens's dirt as the shaders read it (shaders/adaptive/dirt.glsl). Thread-safety: a pure function.
+// A lens's dirt as the shaders read it (shaders/stop/dirt.glsl). Thread-safety: a pure function.
 #pragma once
 
 #include <cstdint>

@@ -83,8 +83,8 @@ void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceG
 }
 
 GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
-                     GridKept& kept, StarburstStage& starbursts)
-    : device_(device), info_(info), job_(job), limits_(limits), kept_(kept), starbursts_(starbursts) {
+                     GridKept& kept, StopTables& tables, StarburstStage& starbursts)
+    : device_(device), info_(info), job_(job), limits_(limits), kept_(kept), tables_(tables), starbursts_(starbursts) {
   for (const DeviceGrid& grid : job.grids) grids_in_order_.push_back(&grid);
   std::ranges::stable_sort(grids_in_order_, {}, [](const DeviceGrid* grid) {
     return std::tuple(grid->gain, grid->side, grid->path.stop_crossings(), is_obscured(*grid));
@@ -99,6 +99,21 @@ GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJo
   };
   limits_.large_polygons = within(limits_.large_polygons, Slot::Large, kLargeBytes);
   limits_.large_corners = within(limits_.large_corners, Slot::LargeCorners, kCornerBytes);
+}
+
+Program GridFrame::choose(Program clean, Program dimmed) const {
+  if (!is_dimmed()) return clean;
+  dimmed.has_picture = job_.iris.is_picture();
+  return dimmed;
+}
+
+// Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all), and a polygon takes several for its
+// corners, for the iris's bounds at each crossing of the stop, and for strokes.
+std::uint32_t GridFrame::list_part() const {
+  constexpr std::uint32_t kTurns = 60000, kTurnsOfCorners = 50, kLeast = 32;
+  if (!is_dimmed()) return TileLists::kMostOfTask;
+  const auto bounds = static_cast<std::uint32_t>(job_.iris.bounds().size());
+  return std::clamp(kTurns / (kTurnsOfCorners + 3 * bounds), kLeast, TileLists::kMostOfTask);
 }
 
 int GridFrame::rows_a_band() const {
@@ -118,18 +133,26 @@ std::uint32_t GridFrame::style_flags() const {
 }
 
 // Uploads the grids for a band of the frame, and sets the parameters of their dispatches.
-void GridFrame::prepare(const Frame& band) {
+void GridFrame::prepare(const Frame& band, std::uint64_t batch_rays) {
   PathData data;
   grids_.assign(grids_in_order_.size(), {});
   places_.assign(grids_in_order_.size(), {});
   const auto* const tiled = std::get_if<TiledOptions>(&job_.style);
   const std::vector<float> bounds = bound_numbers(job_.iris);
-  const std::int32_t fitting = info_.kind == "processor" ? kLargeOnProcessor : kLarge;
+  const std::int32_t fitting = info_.kind == "processor" && !is_dimmed() ? kLargeOnProcessor : kLarge;
   const std::int32_t large_pixels = kept_.large_pixels > 0 ? kept_.large_pixels : fitting;
+  std::size_t end = 0;  // of the batch
+  std::uint64_t ray = 0;  // of the batch
   for (std::size_t k = 0; k < grids_in_order_.size(); ++k) {
     const DeviceGrid& grid = *grids_in_order_[k];
     Parameters& p = grids_[k];
     places_[k] = data.add(grid, pixel_map(band, grid.shift_mm), p);
+    if (k == end) {
+      end = end_of_batch(k, batch_rays);
+      ray = 0;
+    }
+    p.first_ray = static_cast<std::uint32_t>(ray);
+    ray += ray_count(grid);
     p.side = static_cast<std::uint32_t>(grid.side);
     p.bound_count = static_cast<std::uint32_t>(bounds.size() / 8);
     p.flags = style_flags() | (is_obscured(grid) ? kObscured : 0U);
@@ -142,22 +165,62 @@ void GridFrame::prepare(const Frame& band) {
     p.primitive_capacity = primitive_capacity_;
     p.large_pixels = large_pixels;
     p.corner_capacity = limits_.large_corners;
+    p.first_grid = static_cast<std::uint32_t>(k);
+    p.picture = picture_number(job_.patterns.get());
   }
   upload_paths(device_, data);
   device_.upload(Slot::Bounds, bounds);
+  if (is_dimmed()) upload_stops();
   work_.uploaded_bytes +=
       4 * (data.floats().size() + data.integers().size() + data.table_pairs().size() + bounds.size()) +
       8 * data.doubles().size();
 }
 
-void GridFrame::trace(std::size_t first, std::size_t end) {
-  std::uint64_t ray = 0;
-  for (std::size_t k = first; k < end; ++k) {
-    grids_[k].first_ray = static_cast<std::uint32_t>(ray);
-    dispatch_trace(device_, info_, *grids_in_order_[k], places_[k], grids_[k]);
-    ray += ray_count(*grids_in_order_[k]);
+// Uploads what dims the grids' light at the stop and on the front, grid by grid.
+void GridFrame::upload_stops() {
+  std::vector<GridRecord> records;
+  records.reserve(grids_in_order_.size());
+  for (std::size_t k = 0; k < grids_in_order_.size(); ++k) {
+    const DeviceGrid& grid = *grids_in_order_[k];
+    const PacketStart& start = grid.path.start();
+    const auto narrow = [](double number) { return static_cast<float>(number); };
+    const bool has_pattern = grid.pattern != DevicePatterns::kNone;
+    records.push_back({.pattern = has_pattern ? grid.pattern + 1 : 0,
+                       .outer_radius = has_pattern ? job_.patterns->patterns[grid.pattern].outer_radius : 1.0F,
+                       .first_ray = grids_[k].first_ray,
+                       .side = static_cast<std::uint32_t>(grid.side),
+                       .start_mm = {narrow(start.origin_mm.x), narrow(start.origin_mm.y)},
+                       .step_mm = {narrow(grid.step_mm.x), narrow(grid.step_mm.y)},
+                       .along = {narrow(start.direction.x), narrow(start.direction.y), narrow(start.direction.z)},
+                       .per_distance_mm = start.diverges ? narrow(start.per_distance_mm) : 0.0F,
+                       .front_gap_mm = narrow(grid.front_gap_mm)});
   }
-  work_.rays += ray;
+  device_.upload(Slot::Items, records);
+  work_.uploaded_bytes += sizeof(GridRecord) * records.size() + tables_.upload(device_, info_, job_.patterns, job_.dirt);
+}
+
+// Grids with a stop pattern are traced through a circle as large as the pattern.
+void GridFrame::trace(std::size_t first, std::size_t end) {
+  for (std::size_t k = first; k < end; ++k) {
+    const DeviceGrid& grid = *grids_in_order_[k];
+    Parameters p = grids_[k];
+    if (grid.pattern != DevicePatterns::kNone) p.flags |= kCircle;
+    dispatch_trace(device_, info_, grid, places_[k], p);
+    work_.rays += ray_count(grid);
+  }
+}
+
+// The end of the batch of grids of the same gains that begins with one.
+std::size_t GridFrame::end_of_batch(std::size_t first, std::uint64_t batch_rays) const {
+  std::size_t end = first;
+  std::uint64_t rays = 0;
+  const auto& gain = grids_in_order_[first]->gain;
+  for (; end < grids_in_order_.size() && grids_in_order_[end]->gain == gain; ++end) {
+    const std::uint64_t more = ray_count(*grids_in_order_[end]);
+    if (end > first && rays + more > batch_rays) break;
+    rays += more;
+  }
+  return end;
 }
 
 // Draws what earlier shaders have listed: what is open, if that was listed, what is cut, and what is large.
@@ -194,7 +257,7 @@ std::vector<Parameters> GridFrame::runs_of(std::size_t first, std::size_t end) c
   return runs;
 }
 
-void GridFrame::dispatch_runs(Shader shader, std::span<const Parameters> runs, std::uint32_t less) {
+void GridFrame::dispatch_runs(Program shader, std::span<const Parameters> runs, std::uint32_t less) {
   for (const Parameters& run : runs) {
     const std::uint64_t side = run.side - less;
     device_.dispatch(shader, run, groups_of(run.grid_count * side * side, info_));
@@ -206,8 +269,9 @@ void GridFrame::draw_cells(std::size_t first, std::size_t end) {
   dispatch_runs(Shader::Vertices, runs, 0);
   device_.barrier();
   device_.end_stage("vertices");
-  dispatch_runs(Shader::Cells, runs, 1);
-  draw_listed({}, Shader::CutCells, Shader::LargeCells, first);
+  dispatch_runs(choose(Shader::Cells, Shader::CellsDimmed), runs, 1);
+  draw_listed({}, choose(Shader::CutCells, Shader::CutCellsDimmed),
+              choose(Shader::LargeCells, Shader::LargeCellsDimmed), first);
 }
 
 // Finds level by level which blocks of cells are whole.
@@ -325,6 +389,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   lists_.flags = std::holds_alternative<TiledOptions>(job_.style) ? kListPrimitives : 0U;
   lists_.polygon_capacity = limits_.large_polygons;
   lists_.entry_capacity = static_cast<std::uint32_t>(kept_.tile_entries);
+  lists_.list_part = list_part();
   need_buffers(device_, lists_);
   device_.need(Slot::Large, kLargeBytes * limits_.large_polygons);
   device_.need(Slot::LargeCorners, kCornerBytes * limits_.large_corners);
@@ -337,7 +402,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   primitive_capacity_ = static_cast<std::uint32_t>(is_tiled ? 2 * most_rays : most_rays);
   device_.need(Slot::CutCells, kCutRecordBytes * primitive_capacity_);
   if (is_tiled) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
-  prepare(band.frame);
+  prepare(band.frame, batch_rays);
 
   device_.begin();
   device_.clear(Slot::Sums, 0, kSumBytes * pixels);
@@ -346,17 +411,14 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   std::uint64_t submitted = 0;
   bool is_dark = true;  // nothing is in the picture yet
   for (std::size_t first = 0, end = 0; first < grids_in_order_.size(); first = end) {
-    std::uint64_t rays = 0;
     const auto& gain = grids_in_order_[first]->gain;
-    const auto has_gain = [&](std::size_t k) { return k < grids_in_order_.size() && grids_in_order_[k]->gain == gain; };
-    for (; has_gain(end) && (end == first || rays + ray_count(*grids_in_order_[end]) <= batch_rays); ++end)
-      rays += ray_count(*grids_in_order_[end]);
+    end = end_of_batch(first, batch_rays);
     draw_batch(first, end);
-    if (!has_gain(end)) {
+    if (end == grids_in_order_.size() || grids_in_order_[end]->gain != gain) {
       resolve(band.frame, *grids_in_order_[first], is_dark);
       is_dark = false;
     }
-    submitted += rays;
+    for (std::size_t k = first; k < end; ++k) submitted += ray_count(*grids_in_order_[k]);
     if (submitted < limits_.rays_a_submission || end == grids_in_order_.size()) continue;
     device_.finish();
     if (context.cancelled()) return true;

@@ -13,6 +13,7 @@
 #include "vulkan/device_context.h"
 #include "vulkan/layout.h"
 #include "vulkan/starburst_stage.h"
+#include "vulkan/stop_tables.h"
 #include "vulkan/tile_lists.h"
 
 namespace contrejour::inline internal::vulkan {
@@ -35,7 +36,7 @@ class GridFrame {
  public:
   // All must outlive the frame.
   GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
-            GridKept& kept, StarburstStage& starbursts);
+            GridKept& kept, StopTables& tables, StarburstStage& starbursts);
 
   // Replaces the image's values, if the job reads them. Returns early when the context is cancelled.
   DeviceWork draw(Image& image, const Context& context);
@@ -49,7 +50,14 @@ class GridFrame {
   };
 
   [[nodiscard]] int rows_a_band() const;
-  void prepare(const Frame& band);
+  void prepare(const Frame& band, std::uint64_t batch_rays);
+  void upload_stops();
+  // Whether the job has stop patterns, dirt or a picture as the iris.
+  [[nodiscard]] bool is_dimmed() const { return job_.patterns || job_.dirt; }
+  // The program for such jobs, or for others.
+  [[nodiscard]] Program choose(Program clean, Program dimmed) const;
+  [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
+  [[nodiscard]] std::size_t end_of_batch(std::size_t first, std::uint64_t batch_rays) const;
   // Returns false if a buffer did not suffice.
   [[nodiscard]] bool draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context);
   void draw_batch(std::size_t first, std::size_t end);
@@ -61,7 +69,7 @@ class GridFrame {
   // The parameters of the grids' dispatches, one for each run of grids.
   [[nodiscard]] std::vector<Parameters> runs_of(std::size_t first, std::size_t end) const;
   // An invocation a ray, or a cell with `less` of 1.
-  void dispatch_runs(Shader shader, std::span<const Parameters> runs, std::uint32_t less);
+  void dispatch_runs(Program shader, std::span<const Parameters> runs, std::uint32_t less);
   void merge(std::span<const Parameters> runs);
   void list_primitives(std::span<const Parameters> runs);
   void draw_listed(std::optional<Program> open, Program cut, Program large, std::size_t any);
@@ -74,6 +82,7 @@ class GridFrame {
   const GridJob& job_;
   BatchLimits limits_;
   GridKept& kept_;
+  StopTables& tables_;
   StarburstStage& starbursts_;
   TileLists lists_;  // of the present band
   std::uint32_t primitive_capacity_ = 0;  // of `tiled`: what the buffer of primitives holds

@@ -26,8 +26,23 @@ struct Parameters {
   std::uint32_t primitive_capacity = 0;
   std::uint32_t grid_count = 1, block_stride = 0;
   std::int32_t large_pixels = 0;
+  std::uint32_t first_grid = 0;
+  std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
 };
 static_assert(sizeof(Parameters) <= 128, "every device has 128 bytes of push constants");
+
+// A grid of a frame with stop patterns or dirt, as shaders/grid_stop.glsl reads it.
+struct GridRecord {
+  std::uint32_t pattern = 0;  // its number from 1 on; 0: none
+  float outer_radius = 1;  // of which crossings of the stop are multiples, stop radii
+  std::uint32_t first_ray = 0, side = 0;
+  std::array<float, 2> start_mm{}, step_mm{};  // of the rays, in their plane
+  std::array<float, 3> along{};  // the first ray's direction
+  float per_distance_mm = 0;  // the change of the direction by mm of the plane; 0: the light is distant
+  float front_gap_mm = 0;  // along the axis, to the plane of dirt on the front
+  std::array<float, 3> unused{};
+};
+static_assert(sizeof(GridRecord) == 64);
 
 enum ParameterFlags : std::uint32_t {
   kCircle = 1,

@@ -24,9 +24,12 @@ namespace {
 #include "vulkan/bin_wide.inc"
 #include "vulkan/blocks.inc"
 #include "vulkan/cells.inc"
+#include "vulkan/cells_dimmed.inc"
 #include "vulkan/cut_cells.inc"
+#include "vulkan/cut_cells_dimmed.inc"
 #include "vulkan/cut_primitives.inc"
 #include "vulkan/large_cells.inc"
+#include "vulkan/large_cells_dimmed.inc"
 #include "vulkan/large_primitives.inc"
 #include "vulkan/list_sizes.inc"
 #include "vulkan/merged_blocks.inc"
@@ -83,6 +86,9 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::StarburstFar: return kStarburstFarCode;
     case Shader::StarburstNear: return kStarburstNearCode;
     case Shader::Rgba: return kRgbaCode;
+    case Shader::CellsDimmed: return kCellsDimmedCode;
+    case Shader::CutCellsDimmed: return kCutCellsDimmedCode;
+    case Shader::LargeCellsDimmed: return kLargeCellsDimmedCode;
   }
   return {};
 }

@@ -50,8 +50,12 @@ enum class Shader : std::uint8_t {
   StarburstFar,
   StarburstNear,
   Rgba,
+  // The same as those without the word, for frames with stop patterns, dirt or a picture as the iris.
+  CellsDimmed,
+  CutCellsDimmed,
+  LargeCellsDimmed,
 };
-inline constexpr std::size_t kShaders = 37;
+inline constexpr std::size_t kShaders = 40;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
 // surfaces, for those of `adaptive` whether the iris is a picture, for those of `tiled` the interpolation.

@@ -15,6 +15,7 @@
 #include "vulkan/instance.h"
 #include "vulkan/picture_writer.h"
 #include "vulkan/starburst_stage.h"
+#include "vulkan/stop_tables.h"
 
 namespace contrejour::inline internal {
 namespace vulkan {
@@ -53,7 +54,7 @@ class VulkanDevice final : public FrameDevice {
       StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
       GridJob used = job;
       used.use = use_of(job.use, starbursts);
-      GridFrame frame(device, info_, used, {}, grids_, starbursts);
+      GridFrame frame(device, info_, used, {}, grids_, stop_tables_, starbursts);
       return with(starbursts, used, frame, frame.draw(image, context));
     });
   }
@@ -64,7 +65,7 @@ class VulkanDevice final : public FrameDevice {
       StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
       AdaptiveJob used = job;
       used.use = use_of(job.use, starbursts);
-      AdaptiveFrame frame(device, info_, used, adaptive_, starbursts);
+      AdaptiveFrame frame(device, info_, used, adaptive_, stop_tables_, starbursts);
       return with(starbursts, used, frame, frame.draw(image, context));
     });
   }
@@ -167,6 +168,7 @@ class VulkanDevice final : public FrameDevice {
       message = error.what();
     }
     adaptive_ = {};
+    stop_tables_ = {};
     grids_ = {};
     starbursts_ = {};
     picture_ = {};
@@ -183,6 +185,7 @@ class VulkanDevice final : public FrameDevice {
   std::unique_ptr<DeviceContext> context_;
   AdaptiveKept adaptive_;
   GridKept grids_;
+  StopTables stop_tables_;
   StarburstKept starbursts_;
   StoredPicture picture_;  // that the last draw kept
 };

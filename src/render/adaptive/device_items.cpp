@@ -10,10 +10,10 @@
 #include "base/clock.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
-#include "render/adaptive/device_dirt.h"
-#include "render/adaptive/device_patterns.h"
 #include "render/adaptive/kept_paths.h"
 #include "render/device/device_frame.h"
+#include "render/device/kept_device_dirt.h"
+#include "render/device/kept_patterns.h"
 #include "render/planning/adaptive_passes.h"
 #include "render/stop_patterns/stop_transmittances.h"
 

@@ -14,7 +14,7 @@ namespace {
 constexpr int kFewestRays = 16;
 
 struct FoundGrids {
-  std::vector<DeviceGrid> grids;
+  std::vector<PatternedGrid> grids;
   Counts counts;
 };
 
@@ -31,14 +31,15 @@ FoundGrids find_grids(const Item& item, const Frame& frame, const GridSource& so
     PacketPath path(pupil->path, tables, {{0.0, 0.0, pupil->plane_z_mm}, item.light->source});
     path.start_from(box.low);
     const Rgb gain = item.adjustment->tinted(pass.gain);
-    found.grids.push_back(
-        {.path = std::move(path),
-         .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
-         .side = side,
-         .precision = precision,
-         .irradiance = item.light->source.shared_flux() * pupil->stop.level(),
-         .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
-         .shift_mm = item.adjustment->shift_mm});
+    DeviceGrid made{.path = std::move(path),
+                    .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
+                    .side = side,
+                    .precision = precision,
+                    .irradiance = item.light->source.shared_flux() * pupil->stop.level(),
+                    .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
+                    .shift_mm = item.adjustment->shift_mm};
+    if (pupil->stop.has_front()) made.front_gap_mm = pupil->stop.dirt->site().front_z_mm - pupil->plane_z_mm;
+    found.grids.push_back({std::move(made), pupil->stop.pattern});
     grid.counts().rays += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
     grid.counts().surface_hits +=
         static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) * pupil->path.steps.size();
@@ -51,7 +52,7 @@ FoundGrids find_grids(const Item& item, const Frame& frame, const GridSource& so
 
 std::string device_lacks(const GridSource& source, const FramePlan& plan) {
   const BundleOptions& options = source.options;
-  if (std::string lacks = stop_lacks(source.stops, plan, source.lens); !lacks.empty()) return lacks;
+  if (std::string lacks = stop_lacks(source.stops, plan, source.lens, true); !lacks.empty()) return lacks;
   if (options.mirror_symmetry) return "mirrored grids are";
   if (options.precomputed_bounds) return "precomputed pupils are";
   if (options.spectral_filter) return "the spectral filter is";
@@ -77,7 +78,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const GridSource& source, co
   statistics.method = "bundle";
   statistics.rays = counts.rays;
   statistics.surface_hits = counts.surface_hits;
-  return frame.draw(*kept.device, IrisShape(source.lens.iris), source.options, std::move(statistics), context);
+  return frame.draw(*kept.device, source.lens.iris, source.options, std::move(statistics), context);
 }
 
 }  // namespace contrejour::inline internal::bundle

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/device/device_frame.h"
 
-#include <iterator>
 #include <utility>
 
 #include "base/tasks.h"
 #include "render/device/kept_device.h"
+#include "render/device/kept_device_dirt.h"
+#include "render/device/kept_patterns.h"
 #include "render/planning/frame_memory.h"
 #include "render/planning/layer_images.h"
 
@@ -57,27 +58,42 @@ Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target, const s
 DeviceFrame::DeviceFrame(const FramePlan& plan, const Frame& frame, RenderCache& cache)
     : plan_(plan), frame_(frame), cache_(cache), by_layer_(layer_count(plan)) {}
 
-void DeviceFrame::add(std::size_t layer, std::vector<DeviceGrid> grids) {
-  auto& all = by_layer_[layer];
-  all.insert(all.end(), std::make_move_iterator(grids.begin()), std::make_move_iterator(grids.end()));
+// Ghosts may share a pattern.
+std::uint32_t DeviceFrame::number_of(const std::shared_ptr<const StopPattern>& pattern) {
+  if (!pattern) return DevicePatterns::kNone;
+  const auto [at, is_new] = number_of_.try_emplace(pattern.get(), static_cast<std::uint32_t>(patterns_.size()));
+  if (is_new) patterns_.push_back(pattern);
+  return at->second;
 }
 
-Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const IrisShape& iris, const GridStyle& style,
+void DeviceFrame::add(std::size_t layer, std::vector<PatternedGrid> grids) {
+  for (PatternedGrid& one : grids) {
+    one.grid.pattern = number_of(one.pattern);
+    by_layer_[layer].push_back(std::move(one.grid));
+  }
+}
+
+Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const Iris& iris, const GridStyle& style,
                                      RenderStatistics statistics, const Context& context) {
   std::vector<bool> has_light;
   for (const auto& grids : by_layer_) has_light.push_back(!grids.empty());
+  const IrisShape shape(iris);
+  const auto patterns = cache_.section<KeptPatterns>({})->get(patterns_, iris);
+  const auto dirt = cache_.section<KeptDeviceDirt>({})->get(plan_.dirt);
   return draw_layers(
       device, {plan_, frame_, cache_, std::move(statistics), ms_since(start_)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const KeptDevice& kept = *cache_.section<KeptDevice>({});
-        return device.draw(GridJob{frame_, iris, by_layer_[layer], style, kept.starbursts, kept.use}, image, drawing);
+        return device.draw(
+            GridJob{frame_, shape, by_layer_[layer], style, kept.starbursts, kept.use, patterns, dirt}, image, drawing);
       },
       context);
 }
 
-std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens) {
+std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens,
+                       bool draws_patterns) {
   if (lens.iris.field) return "a picture as the iris is";
-  if (stops.on()) return "ringing is";
+  if (stops.on() && !draws_patterns) return "ringing is";
   if (plan.dirt) return "dirt is";
   return {};
 }

@@ -3,7 +3,10 @@
 // Thread-safety: one thread at a time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,15 +44,21 @@ struct ProgressPart {
 inline constexpr ProgressPart kDeviceSearch{0.0, 0.3};
 [[nodiscard]] Context part_of(const Context& whole, ProgressPart part);
 
+// A grid, and the stop pattern of its ghost at its wavelength; null: the iris is sharp.
+struct PatternedGrid {
+  DeviceGrid grid;
+  std::shared_ptr<const StopPattern> pattern;
+};
+
 // The grids of a frame, by layer, for the methods that draw grids.
 class DeviceFrame {
  public:
   DeviceFrame(const FramePlan& plan, const Frame& frame, RenderCache& cache);
 
-  void add(std::size_t layer, std::vector<DeviceGrid> grids);
+  void add(std::size_t layer, std::vector<PatternedGrid> grids);
 
-  // Draws all layers. statistics: those of the search. Errors: those of the device; Cancelled.
-  [[nodiscard]] Result<DrawnFlare> draw(FrameDevice& device, const IrisShape& iris, const GridStyle& style,
+  // Draws all layers. iris: the lens's. statistics: those of the search. Errors: those of the device; Cancelled.
+  [[nodiscard]] Result<DrawnFlare> draw(FrameDevice& device, const Iris& iris, const GridStyle& style,
                                         RenderStatistics statistics, const Context& context);
 
  private:
@@ -57,10 +66,15 @@ class DeviceFrame {
   const Frame& frame_;
   RenderCache& cache_;
   Clock::time_point start_ = Clock::now();
+  [[nodiscard]] std::uint32_t number_of(const std::shared_ptr<const StopPattern>& pattern);
+
   std::vector<std::vector<DeviceGrid>> by_layer_;
+  std::vector<std::shared_ptr<const StopPattern>> patterns_;  // of all layers
+  std::map<const StopPattern*, std::uint32_t> number_of_;
 };
 
 // Names what devices cannot do at the stop yet, in words for a report: "ringing is"; empty: nothing.
-[[nodiscard]] std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens);
+[[nodiscard]] std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens,
+                                     bool draws_patterns);
 
 }  // namespace contrejour::inline internal

@@ -30,6 +30,36 @@
 
 namespace contrejour::inline internal {
 
+// A pattern that replaces the sharp iris in a ghost at one wavelength, at the last crossing of the stop (StopPattern).
+// Units: stop radii.
+struct DevicePattern {
+  std::uint32_t table = 0;  // number of its table
+  std::uint32_t side = 0;  // samples a side of a pattern of the whole iris; 0: fringes of its edges
+  float outer_radius = 1.0F;  // no light passes farther from the axis
+  float scale = 1.0F;  // of edges: positions in the profile a stop radius; of a whole pattern: its extent
+  float level_from = 0.0F;  // of edges: the position from which on the profile counts as 1
+  float roughness =
+      0.0F;  // of edges: the profile's squared slope, integrated; of a whole pattern: its mean over the iris
+  float difference = 0.0F;  // the squared difference from the sharp iris, as a fraction of the iris's area
+  float uniform_from = 0.0F;  // of edges: as level_from, for grids of rays, whose tolerance is the CPU's
+};
+
+// The patterns of a lens's ghosts, and their tables. The profile of an edge is pairs: the value at a position, and its
+// integral from the dark end less that of a sharp edge. A pattern of the whole iris is an image pyramid, finest level
+// first, rows from the top. A device keeps what it was given last, so that
+// frames with the same object upload nothing of it again.
+struct DevicePatterns {
+  static constexpr double kFirstPosition = -6.0, kLastPosition = 32.0, kPositionsAUnit = 128.0;  // of profiles
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  std::vector<std::shared_ptr<const void>> owners;  // of what the patterns were made from
+  std::vector<DevicePattern> patterns;
+  std::vector<std::vector<float>> tables;
+  // The number of a picture as the iris, or kNone: the pattern with this number is an image pyramid of its
+  // transmittance, and the next one has signed distances from its outline as samples, in stop radii.
+  std::uint32_t picture = kNone;
+};
+
 // The rays of one ghost, light and wavelength over a rectangle of the entrance plane.
 struct DeviceGrid {
   PacketPath path;  // begins at the rectangle's lower corner; its tables outlive the grid
@@ -39,6 +69,9 @@ struct DeviceGrid {
   double irradiance = 1.0;  // a ray of transmission 1 carries the area of a cell times this
   std::array<float, 3> gain{};  // from flux to pixel values
   Vec2 shift_mm{};  // of the ghost, on the sensor
+  // Number in the job; none: the iris is sharp. With one, the path's stop is as large as the pattern.
+  std::uint32_t pattern = DevicePatterns::kNone;
+  double front_gap_mm = 0.0;  // along the axis, from the rays' plane to the plane of dirt on the front
 };
 
 // The use of a picture after it was drawn. Unless it is read, the image on the host is left undefined.
@@ -53,11 +86,13 @@ using GridStyle = std::variant<BundleOptions, TiledOptions>;
 
 struct GridJob {
   const Frame& frame;
-  const IrisShape& iris;  // not a picture
+  const IrisShape& iris;
   std::span<const DeviceGrid> grids;
   const GridStyle& style;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
   PictureUse use = PictureUse::Read;
+  std::shared_ptr<const DevicePatterns> patterns = nullptr;  // null: the iris is sharp in all grids
+  std::shared_ptr<const DeviceDirt> dirt = nullptr;  // null: the lens is clean
 };
 
 // The paths of a lens's ghosts, from any point of the entrance plane. A device keeps what it was given last, so that
@@ -65,34 +100,6 @@ struct GridJob {
 struct DevicePaths {
   std::shared_ptr<const void> owner;  // of what the paths refer to
   std::vector<PacketPath> paths;  // their starts do not count
-};
-
-// A pattern that replaces the sharp iris in a ghost at one wavelength, at the last crossing of the stop (StopPattern).
-// Units: stop radii.
-struct DevicePattern {
-  std::uint32_t table = 0;  // number of its table
-  std::uint32_t side = 0;  // samples a side of a pattern of the whole iris; 0: fringes of its edges
-  float outer_radius = 1.0F;  // no light passes farther from the axis
-  float scale = 1.0F;  // of edges: positions in the profile a stop radius; of a whole pattern: its extent
-  float level_from = 0.0F;  // of edges: the position from which on the profile counts as 1
-  float roughness =
-      0.0F;  // of edges: the profile's squared slope, integrated; of a whole pattern: its mean over the iris
-  float difference = 0.0F;  // the squared difference from the sharp iris, as a fraction of the iris's area
-};
-
-// The patterns of a lens's ghosts, and their tables. The profile of an edge is pairs: the value at a position, and its
-// integral from the dark end less that of a sharp edge. A pattern of the whole iris is an image pyramid, finest level
-// first, rows from the top. A device keeps what it was given last, as DevicePaths.
-struct DevicePatterns {
-  static constexpr double kFirstPosition = -6.0, kLastPosition = 32.0, kPositionsAUnit = 128.0;  // of profiles
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
-  std::vector<std::shared_ptr<const void>> owners;  // of what the patterns were made from
-  std::vector<DevicePattern> patterns;
-  std::vector<std::vector<float>> tables;
-  // The number of a picture as the iris, or kNone: the pattern with this number is an image pyramid of its
-  // transmittance, and the next one has signed distances from its outline as samples, in stop radii.
-  std::uint32_t picture = kNone;
 };
 
 // A light: its ray through the lower corner of its window of the entrance plane, and the direction of the plane that

@@ -89,7 +89,7 @@ int side_of_grid(const GridOptions& grid, const LensState& lens, const Rectangle
 }
 
 std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens) {
-  return stop_lacks(stops, plan, lens);
+  return stop_lacks(stops, plan, lens, false);
 }
 
 Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options, const StopTransmittances& stops,
@@ -104,10 +104,10 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options,
       [&](std::size_t k, FoundGrid& found) {
         statistics.rays += found.rays;
         statistics.surface_hits += found.surface_hits;
-        if (found.grid) frame.add(passes[k].layer, {std::move(*found.grid)});
+        if (found.grid) frame.add(passes[k].layer, {{std::move(*found.grid), nullptr}});
       });
   if (!done) return interrupted();
-  return frame.draw(*kept.device, IrisShape(planned.lens.iris), options, std::move(statistics), context);
+  return frame.draw(*kept.device, planned.lens.iris, options, std::move(statistics), context);
 }
 
 }  // namespace contrejour::inline internal::tiled

@@ -18,6 +18,8 @@ layout(push_constant) uniform Parameters {
   uint grid_count;    // grids of a dispatch, which have the same parameters and lie one after the other
   uint block_stride;  // from one grid's blocks to the next one's
   int large_pixels;  // of the bounds from which on a polygon is listed
+  uint first_grid;  // number of the dispatch's first grid
+  uint picture;     // as the iris: its pattern's number, of which the next one is its distances; 0: none
 }
 p;
 

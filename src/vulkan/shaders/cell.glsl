@@ -2,6 +2,7 @@
 // A cell of a grid of rays: render/bundle/cell_raster.cpp under the same names. Included after polygon.glsl.
 #define SHADED_CELL_PX 4.0
 #define SLIVER 1e-7
+#define NEGLIGIBLE_COVERAGE 1e-6  // of a pixel: rounding error outside a polygon
 #define STATE_CLOSED 0
 #define STATE_CUT 1
 #define STATE_OPEN 2

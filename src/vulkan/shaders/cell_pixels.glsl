@@ -2,6 +2,10 @@
 // The light of polygons of cells.comp and cut_cells.comp: those of many pixels are listed, and drawn by tile
 // (large_cells.comp). Included after cell.glsl and light.glsl.
 #define NOT_LISTED 0xffffffffu
+#ifdef DIMMED
+#include "seen_triangle.glsl"
+uvec3 seen_triangle = uvec3(0u);  // of the polygon that is listed
+#endif
 
 // Lists a polygon without its corners. Returns where these begin, which are to be in the order that makes the shoelace
 // area positive. If memory does not suffice, the host draws the frame again in smaller parts.
@@ -22,6 +26,9 @@ uint list_large(Density density, ivec4 box, uint corners) {
   large[word + 9u] = corners;
   large[word + 10u] = uint(base.x);
   large[word + 11u] = uint(base.y);
+#ifdef DIMMED
+  for (uint k = 0u; k < 3u; ++k) large[word + 5u + k] = seen_triangle[k];
+#endif
   for (uint k = 0u; k < 4u; ++k) large[word + 12u + k] = uint(box[k] + base[k % 2u]);
   return first;
 }

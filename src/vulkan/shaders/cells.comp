@@ -15,8 +15,14 @@ layout(local_size_x = 64) in;
 #include "cell_pixels.glsl"
 #include "coverage.glsl"
 #include "cut_cell.glsl"
+#ifdef DIMMED
+#include "grid_stop.glsl"
+#endif
 
 shared uint primitive_count;
+#ifdef DIMMED
+uint own_grid;
+#endif
 
 // Lists the corners of a large quadrilateral in order.
 void list_quad(Density density, ivec4 box, vec2 corners[4], bool is_reversed) {
@@ -67,9 +73,22 @@ uint draw_cell(uint ix, uint iy) {
   if (!(failed(r[0]) || failed(r[1]) || failed(r[2]) || failed(r[3])) && outside_frame(v)) return 0u;
   bool is_open = (blockers.x | blockers.y | blockers.z | blockers.w) == 0u;
   base = ivec2(clamp(floor(r[0].xy), vec2(0.0), vec2(p.width, p.height)));
+#ifdef DIMMED
+  uint dims = dimming_of(v, p.crossing_count, failed(r[0]) || failed(r[1]) || failed(r[2]) || failed(r[3]));
+  if (dims == DIMMED_TO_NOTHING) return 0u;
+  if (dims != 0u) {
+    cut_cells[atomicAdd(counters[COUNT_CUT], 1u)] =
+        uvec4(v.x, p.side, p.crossing_count | own_grid << CUT_GRID_SHIFT, (is_open ? 1u : 0u) | dims << CUT_DIMS_SHIFT);
+    return 0u;
+  }
+#endif
   if (is_open && draw_open(v, r, vec4(s[0].x, s[1].x, s[2].x, s[3].x))) return 1u;
   cut_cells[atomicAdd(counters[COUNT_CUT], 1u)] =
+#ifdef DIMMED
+      uvec4(v.x, p.side, p.crossing_count | own_grid << CUT_GRID_SHIFT, is_open ? 1u : 0u);
+#else
       uvec4(v.x, p.side, p.crossing_count, is_open ? 1u : 0u);
+#endif
   return 0u;
 }
 
@@ -80,6 +99,10 @@ void main() {
   uint k = linear_invocation(), primitives = 0u;
   if (k < p.grid_count * count) {
     first_ray = p.first_ray + k / count * p.side * p.side;
+#ifdef DIMMED
+    own_grid = p.first_grid + k / count;
+    set_grid(own_grid);
+#endif
     k %= count;
     primitives = draw_cell(k % a_side, k / a_side);
   }

@@ -12,6 +12,16 @@ layout(local_size_x = 64) in;
 #include "cell_pixels.glsl"
 #include "coverage.glsl"
 #include "cut_cell.glsl"
+#ifdef DIMMED
+#include "grid_stop.glsl"
+uint dims = 0u;  // what dims the present cell
+
+vec2 middle_of_polygon() {
+  vec2 sum = vec2(0.0);
+  for (int k = 0; k < corner_count; ++k) sum += polygon[k];
+  return sum / float(corner_count);
+}
+#endif
 
 shared uint primitive_count;
 
@@ -53,7 +63,13 @@ void add_polygon(Density density) {
     float covered = 0.0;
     for (int k = 0; k < corner_count; ++k)
       covered += area_right_of(polygon[k] - corner, polygon[k + 1 == corner_count ? 0 : k + 1] - corner);
+#ifdef DIMMED
+    covered *= orientation;
+    if (covered <= NEGLIGIBLE_COVERAGE) continue;
+    add_light(at + base, covered * level_at(density, at) * (dims == 0u ? 1.0 : transmitted_at(dims, corner + 0.5)));
+#else
     if (covered * orientation > 0.0) add_light(at + base, covered * orientation * level_at(density, at));
+#endif
   }
 }
 
@@ -65,6 +81,9 @@ void draw_polygon(vec2 p0, vec2 p1, vec2 p2, float flux, float fraction, vec2 gr
   if (!is_point) farthest_corners(from, to);
   // A polygon in one pixel is a line of one step.
   if (is_point || area < SLIVER * dot(to - from, to - from)) {
+#ifdef DIMMED
+    if (dims != 0u) flux *= transmitted_at(dims, middle_of_polygon());
+#endif
     add_line(from, to, flux * fraction);
     return;
   }
@@ -86,6 +105,9 @@ uint draw_triangle(uvec3 t, uint crossing_count, bool is_cut, vec2 gradient) {
   if (corner_count < 3) return 0u;
   float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
   for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;
+#ifdef DIMMED
+  if (dims != 0u) see_triangle(t, crossing_count, vec2(base));
+#endif
   draw_polygon(p0, p1, p2, (r0.z + r1.z + r2.z) / 3.0, fraction, gradient);
   return 1u;
 }
@@ -103,7 +125,16 @@ uint draw_half(uvec4 cell, bool is_second) {
   vec2 gradient = vec2(0.0);
   if ((p.flags & FLAG_SMOOTH) != 0u && all(greaterThan(e, vec4(0.0))) && abs(area) >= SHADED_CELL_PX)
     gradient = gradient_of(v, e);
+#ifdef DIMMED
+  uint crossing_count = cell.z & ((1u << CUT_GRID_SHIFT) - 1u), grid = cell.z >> CUT_GRID_SHIFT;
+  set_grid(grid);
+  clips_by_circle = grid_pattern != 0u;
+  dims = cell.w >> CUT_DIMS_SHIFT;
+  seen_triangle = seen_words(cell.x, dims, crossing_count, is_second, grid);
+  return draw_triangle(is_second ? v.xzw : v.xyz, crossing_count, (cell.w & 1u) == 0u, gradient);
+#else
   return draw_triangle(is_second ? v.xzw : v.xyz, cell.z, cell.w == 0u, gradient);
+#endif
 }
 
 void main() {

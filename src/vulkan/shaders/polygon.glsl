@@ -124,7 +124,13 @@ void clip_by_bound(vec2 stop[3], vec2 twist, bool straight, vec2 place, float ex
   }
 }
 
+#ifdef DIMMED
+// Whether the present grid's rays are traced through a circle in place of the iris, since the iris has a stop pattern.
+bool clips_by_circle = false;
+bool is_circle() { return clips_by_circle || (p.flags & FLAG_CIRCLE) != 0u; }
+#else
 bool is_circle() { return (p.flags & FLAG_CIRCLE) != 0u; }
+#endif
 bool is_beyond(uint b, vec2 q) { return (is_circle() ? length(q) - 1.0 : bound_distance(b, q)) > 0.0; }
 
 // Bounds are found before they clip, 32 at a time, and all clip at one place: lavapipe clips in each turn of a loop in

@@ -4,6 +4,7 @@
 // items of a ghost and a light. Sizes and layouts are those of src/vulkan/adaptive_layout.h.
 #include "../buffers.glsl"
 #include "../counts.glsl"
+#include "../stop/tables.glsl"
 
 #define ITEM_WORDS 24u
 #define GROUP_WORDS 4u
@@ -19,16 +20,11 @@ layout(std430, set = 0, binding = 17) buffer Found { uint found[]; };
 layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by item
 layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by item: its first block of 64 rays
 layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
-layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
-layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
 layout(set = 0, binding = 42) uniform usamplerBuffer item_texels;   // six an item
 layout(set = 0, binding = 43) uniform samplerBuffer start_texels;   // four a light
 layout(set = 0, binding = 44) uniform samplerBuffer state_texels;   // six an item
 layout(set = 0, binding = 45) uniform usamplerBuffer offset_texels;
 layout(set = 0, binding = 46) uniform usamplerBuffer cut_texels;
-
-// Whether the iris is a picture: the code for it is long, and other frames are compiled without.
-layout(constant_id = 1) const bool HAS_PICTURE = false;
 
 layout(push_constant) uniform Parameters {
   uint item_count, group_count, level, flags;
@@ -43,10 +39,6 @@ layout(push_constant) uniform Parameters {
   float merge_error;    // of pixels, in peaks, that a plane over several cells may make
 }
 p;
-
-// Bits of the flags, besides FLAG_CIRCLE.
-#define FLAG_DIRT_IN_STOP 16u
-#define FLAG_DIRT_ON_FRONT 32u
 
 // A part of a cut cell, in cut_cells[].y: the cell's first ray in its grid, the part, the parts a side less 1.
 #define CUT_CELL_MASK 0x1fffffu

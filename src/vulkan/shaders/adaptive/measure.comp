@@ -8,11 +8,11 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "item_path.glsl"
 #include "../iris.glsl"
-#include "pattern.glsl"
+#include "../stop/pattern.glsl"
 #ifdef OCCLUDERS
 #include "../coverage.glsl"
 #include "front.glsl"
-#include "occluders.glsl"
+#include "../stop/occluders.glsl"
 #endif
 
 #define BOUND_LARGEST_DENSITY_CHANGE 2.0

@@ -13,9 +13,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "parts.glsl"
 #ifdef PATTERNS
 #include "../iris.glsl"
-#include "pattern.glsl"
+#include "../stop/pattern.glsl"
 #ifdef OCCLUDERS
-#include "occluders.glsl"
+#include "../stop/occluders.glsl"
 #endif
 #endif
 

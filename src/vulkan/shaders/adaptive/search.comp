@@ -8,7 +8,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "common.glsl"
 #include "item_path.glsl"
 #include "near_stop.glsl"
-#include "pattern_record.glsl"
+#include "../stop/pattern_record.glsl"
 
 #define SCAN_REACH 0.75    // cells on each side of a hit
 #define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction

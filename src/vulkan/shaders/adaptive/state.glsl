@@ -2,12 +2,12 @@
 // The state of a cell whose size is that of the ghost's features: unlike state_of(), it does not take a cell for closed
 // because all corners lie beyond a curved edge.
 #include "near_stop.glsl"
-#include "pattern.glsl"
+#include "../stop/pattern.glsl"
 #ifdef OCCLUDERS
 #include "../start.glsl"
 #include "item_start.glsl"
 #include "front.glsl"
-#include "occluders.glsl"
+#include "../stop/occluders.glsl"
 #endif
 
 bool may_be_open(float low, float high) { return low <= max(0.0, high - low); }

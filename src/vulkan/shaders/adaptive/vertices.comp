@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "../iris.glsl"
 #define SMOOTH_RATIO 2.5  // cells are larger than those of `bundle`, and their planes serve this far
 #include "../vertex.glsl"
-#include "pattern_record.glsl"
+#include "../stop/pattern_record.glsl"
 
 void main() {
   if (!find_ray()) return;

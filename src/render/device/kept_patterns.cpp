@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/adaptive/device_patterns.h"
+#include "render/device/kept_patterns.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-namespace contrejour::inline internal::adaptive {
+namespace contrejour::inline internal {
 namespace {
 
 using stop_patterns::EdgePattern;
@@ -15,6 +15,7 @@ using stop_patterns::PatternTexture;
 
 // The deviation from 1 that still counts as uniform.
 constexpr double kUniformWithin = 0.002;
+constexpr double kUniformInGrid = 1e-3;  // the same for grids of rays (kUniform of bundle/cell_raster.cpp)
 // The integrated squared difference of a straight edge's profile from the sharp one is this at least (kEdgeError of
 // patterned_items.cpp), in units of the profile.
 constexpr double kEdgeDifference = 0.3;
@@ -106,6 +107,7 @@ DevicePattern edge_pattern(const EdgePattern& edges, const std::vector<float>& t
   out.outer_radius = static_cast<float>(edges.outer_radius());
   out.scale = static_cast<float>(1.0 / edges.fringe_unit());
   out.level_from = static_cast<float>(edges.profile().level_above(kUniformWithin));
+  out.uniform_from = static_cast<float>(edges.profile().level_above(kUniformInGrid));
   out.roughness = static_cast<float>(squared_slope(table));
   out.difference = static_cast<float>(kOutlineByArea * edges.fringe_unit() *
                                       std::max(edges.profile().squared_error({0.0, 0.0}), kEdgeDifference));
@@ -189,4 +191,4 @@ std::size_t KeptPatterns::memory_bytes() const {
   return bytes;
 }
 
-}  // namespace contrejour::inline internal::adaptive
+}  // namespace contrejour::inline internal

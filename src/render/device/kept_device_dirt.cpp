@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/adaptive/device_dirt.h"
+#include "render/device/kept_device_dirt.h"
 
 #include <cmath>
 
-namespace contrejour::inline internal::adaptive {
+namespace contrejour::inline internal {
 namespace {
 
 constexpr double kStraightBend_rad = 1e-5;  // a line that bends less is straight to a 1e-5 of its length
@@ -93,4 +93,4 @@ std::size_t KeptDeviceDirt::memory_bytes() const {
          dirt_->blocked_before.size() * sizeof(float);
 }
 
-}  // namespace contrejour::inline internal::adaptive
+}  // namespace contrejour::inline internal

@@ -9,7 +9,7 @@
 #include "render/device/device_dirt.h"
 #include "render/planning/dirt_field.h"
 
-namespace contrejour::inline internal::adaptive {
+namespace contrejour::inline internal {
 
 class KeptDeviceDirt {
  public:
@@ -28,4 +28,4 @@ class KeptDeviceDirt {
   std::shared_ptr<const DeviceDirt> dirt_;
 };
 
-}  // namespace contrejour::inline internal::adaptive
+}  // namespace contrejour::inline internal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the PatternRecord (adaptive_layout.h) of a stop pattern by its number from 1 on; 0 is the sharp iris.
-#define PATTERN_WORDS 8u
+// Reads the PatternRecord (stop_layout.h) of a stop pattern by its number from 1 on; 0 is the sharp iris.
+#define PATTERN_WORDS 9u
 
 uint pattern_word(uint pattern, uint k) { return patterns[PATTERN_WORDS * (pattern - 1u) + k]; }
 uint pattern_table(uint pattern) { return pattern_word(pattern, 0u); }
@@ -11,6 +11,7 @@ float pattern_scale(uint pattern) { return uintBitsToFloat(pattern_word(pattern,
 float pattern_level_from(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 5u)); }
 float pattern_roughness(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 6u)); }
 float pattern_difference(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 7u)); }
+float pattern_uniform_from(uint pattern) { return uintBitsToFloat(pattern_word(pattern, 8u)); }
 
 #define PICTURE_RADIUS 1.05  // pixels that cross the rim have their middle beyond it (kSharpOuterRadius)
 

@@ -10,7 +10,7 @@
 #include "render/device/frame_device.h"
 #include "render/stop_patterns/stop_pattern.h"
 
-namespace contrejour::inline internal::adaptive {
+namespace contrejour::inline internal {
 
 class KeptPatterns {
  public:
@@ -40,4 +40,4 @@ class KeptPatterns {
   std::shared_ptr<const DevicePatterns> patterns_;
 };
 
-}  // namespace contrejour::inline internal::adaptive
+}  // namespace contrejour::inline internal

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// What dims light at the stop and on the front, besides rims and a sharp iris: the tables that are uploaded for it, and
+// the bits of a dispatch's flags. Included after ../buffers.glsl.
+layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
+layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
+
+// Whether the iris is a picture: the code for it is long, and other frames are compiled without.
+layout(constant_id = 1) const bool HAS_PICTURE = false;
+
+// Bits of the flags, besides FLAG_CIRCLE.
+#define FLAG_DIRT_IN_STOP 16u
+#define FLAG_DIRT_ON_FRONT 32u
