@@ -16,6 +16,8 @@ constexpr std::int32_t kTile = 8;  // the workgroups of large_cells.comp and lar
 // The sums hold 63 bits: an estimate of the light of all grids in one pixel takes this many, and the rest is for
 // grazing rays, which may be brighter than estimated, and for single values of tiny cells.
 constexpr double kFixedPoint = 0x1p50;
+// A picture as the iris is looked up pixel by pixel, and clips no polygons: a straight bound that is far away.
+const std::vector<float> kNoBound{1.0F, 0.0F, 1e30F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
 
 // An estimate of the light that all grids bring to a pixel at most, without their gains.
 double most_light(std::span<const DeviceGrid> grids) {
@@ -107,13 +109,27 @@ Program GridFrame::choose(Program clean, Program dimmed) const {
   return dimmed;
 }
 
-// Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all), and a polygon takes several for its
-// corners, for the iris's bounds at each crossing of the stop, and for strokes.
+// The turns of loops that a pixel of a polygon takes at most: for the polygon's corners, for the iris's bounds at each
+// crossing of the stop, and for what is seen in parts.
+std::uint32_t GridFrame::turns_a_pixel() const {
+  constexpr std::uint32_t kCorners = 50, kCrossings = 3, kParts = 18;
+  std::uint32_t turns = kCorners + kCrossings * static_cast<std::uint32_t>(job_.iris.bounds().size());
+  if (job_.iris.is_picture() || job_.dirt) turns += kParts * kCrossings;
+  if (job_.dirt) turns += kParts * kCrossings * (job_.dirt->most_about_cell() + 1);
+  return turns;
+}
+
+// Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all).
+constexpr std::uint32_t kMostTurns = 60000;
+
 std::uint32_t GridFrame::list_part() const {
-  constexpr std::uint32_t kTurns = 60000, kTurnsOfCorners = 50, kLeast = 32;
+  constexpr std::uint32_t kLeast = 8;
   if (!is_dimmed()) return TileLists::kMostOfTask;
-  const auto bounds = static_cast<std::uint32_t>(job_.iris.bounds().size());
-  return std::clamp(kTurns / (kTurnsOfCorners + 3 * bounds), kLeast, TileLists::kMostOfTask);
+  return std::clamp(kMostTurns / turns_a_pixel(), kLeast, TileLists::kMostOfTask);
+}
+
+std::int32_t GridFrame::dimmed_pixels() const {
+  return std::clamp(static_cast<std::int32_t>(kMostTurns / turns_a_pixel()), 4, kLarge);
 }
 
 int GridFrame::rows_a_band() const {
@@ -138,8 +154,10 @@ void GridFrame::prepare(const Frame& band, std::uint64_t batch_rays) {
   grids_.assign(grids_in_order_.size(), {});
   places_.assign(grids_in_order_.size(), {});
   const auto* const tiled = std::get_if<TiledOptions>(&job_.style);
-  const std::vector<float> bounds = bound_numbers(job_.iris);
-  const std::int32_t fitting = info_.kind == "processor" && !is_dimmed() ? kLargeOnProcessor : kLarge;
+  const std::vector<float> bounds = job_.iris.is_picture() ? kNoBound : bound_numbers(job_.iris);
+  const std::int32_t fitting = is_dimmed()                  ? dimmed_pixels()
+                               : info_.kind == "processor" ? kLargeOnProcessor
+                                                           : kLarge;
   const std::int32_t large_pixels = kept_.large_pixels > 0 ? kept_.large_pixels : fitting;
   std::size_t end = 0;  // of the batch
   std::uint64_t ray = 0;  // of the batch

@@ -56,7 +56,9 @@ class GridFrame {
   [[nodiscard]] bool is_dimmed() const { return job_.patterns || job_.dirt; }
   // The program for such jobs, or for others.
   [[nodiscard]] Program choose(Program clean, Program dimmed) const;
+  [[nodiscard]] std::uint32_t turns_a_pixel() const;
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
+  [[nodiscard]] std::int32_t dimmed_pixels() const;  // Parameters::large_pixels of such jobs
   [[nodiscard]] std::size_t end_of_batch(std::size_t first, std::uint64_t batch_rays) const;
   // Returns false if a buffer did not suffice.
   [[nodiscard]] bool draw_band(const Band& band, std::uint64_t batch_rays, Image& image, const Context& context);

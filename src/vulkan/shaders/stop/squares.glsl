@@ -8,7 +8,15 @@ float sharp_transmittance(float distance, float width) {
   return clamp(0.5 - distance / width, 0.0, 1.0);
 }
 
-float distance_from_iris(vec2 at) { return HAS_PICTURE ? picture_distance(at) : iris_distance(at); }
+// The distance from a picture's opening, also beyond its samples, where fringes reach.
+float distance_from_picture(vec2 at) {
+  uint distances = p.picture + 1u;
+  float scale = pattern_scale(distances), last = scale - scale / float(pattern_side(distances));
+  vec2 nearest = clamp(at, vec2(-last), vec2(last));
+  return bilinear(pattern_table(distances), int(pattern_side(distances)), scale, nearest) + length(at - nearest);
+}
+
+float distance_from_iris(vec2 at) { return HAS_PICTURE ? distance_from_picture(at) : iris_distance(at); }
 
 float edge_over_square(uint pattern, float distance, float width) {
   float scale = pattern_scale(pattern);
@@ -28,7 +36,9 @@ float pattern_over_square(uint pattern, vec2 at, float width) {
 }
 
 // The region of a disc of the stop.
-int region_of_disc(uint pattern, vec2 middle, float radius) {
+int region_of_disc(uint pattern, Disc disc) {
+  vec2 middle = disc.middle;
+  float radius = disc.radius;
   if (pattern_side(pattern) != 0u)
     return length(middle) - radius > pattern_outer_radius(pattern) ? REGION_DARK : REGION_VARYING;
   float scale = pattern_scale(pattern), from_edge = distance_from_iris(middle);
