@@ -27,6 +27,11 @@ class IrisShape {
   [[nodiscard]] bool is_circle() const { return is_circle_; }  // of radius 1 about the axis
   [[nodiscard]] bool is_picture() const { return field_ != nullptr; }
   [[nodiscard]] IrisShape hull() const;  // convex, for searches
+  [[nodiscard]] const IrisField* picture() const { return field_.get(); }  // null unless the iris is one
+  // A point of the stop in the picture's own orientation.
+  [[nodiscard]] Vec2 picture_from_stop(Vec2 p) const {
+    return {cosine_ * p.x + sine_ * p.y, cosine_ * p.y - sine_ * p.x};
+  }
 
   // Signed distances of many points of the stop plane, in stop radii.
   void distances(const float* x, const float* y, std::size_t count, float* out) const;
@@ -54,9 +59,6 @@ class IrisShape {
 
  private:
   IrisShape() = default;
-  [[nodiscard]] Vec2 picture_from_stop(Vec2 p) const {
-    return {cosine_ * p.x + sine_ * p.y, cosine_ * p.y - sine_ * p.x};
-  }
   [[nodiscard]] IrisBound in_stop(IrisBound half_plane) const {
     const Vec2 n = half_plane.normal;
     half_plane.normal = {cosine_ * n.x - sine_ * n.y, sine_ * n.x + cosine_ * n.y};

@@ -93,7 +93,6 @@ Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const Iris& iris, cons
 std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens,
                        bool draws_patterns) {
   if (lens.iris.field && !draws_patterns) return "a picture as the iris is";
-  if (stops.has_half_tones()) return "a picture with half-tones as the iris is";
   if (stops.on() && !draws_patterns) return "ringing is";
   if (plan.dirt) return "dirt is";
   return {};

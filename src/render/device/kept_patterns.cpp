@@ -72,17 +72,43 @@ std::vector<float> texture_table(const PatternTexture& texture) {
 constexpr std::size_t kPictureSide = 1024;
 constexpr double kPictureExtent = 1.0625;  // stop radii: the rim, and what pixels see beyond it
 
-// Appends a picture as the iris, without half-tones. A sample of its transmittance is the mean over the sample's
-// square.
+constexpr double kPitch = 2.0 * kPictureExtent / kPictureSide;
+
+Vec2 middle_of_sample(std::size_t k) {
+  const double column = static_cast<double>(k % kPictureSide) + 0.5, row = static_cast<double>(k / kPictureSide) + 0.5;
+  return {column * kPitch - kPictureExtent, kPictureExtent - row * kPitch};
+}
+
+// Appends the half-tones of a picture as the iris, in its own orientation, rows from the lowest. Their number a side is
+// rounded up, so that it can be halved.
+void add_half_tones(const IrisShape& iris, DevicePatterns& to) {
+  constexpr std::size_t kMultiple = 64;
+  const IrisField& field = *iris.picture();
+  const auto side = static_cast<std::size_t>(field.samples());
+  const std::size_t padded = (side + kMultiple - 1) / kMultiple * kMultiple;
+  std::vector<float> samples(padded * padded, 0.0F);
+  const double pitch = 2.0 / static_cast<double>(side);
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column)
+      samples[row * padded + column] =
+          static_cast<float>(field.transmittance({(static_cast<double>(column) + 0.5) * pitch - 1.0,
+                                                  (static_cast<double>(row) + 0.5) * pitch - 1.0}));
+  const Vec2 right = iris.picture_from_stop({1.0, 0.0});
+  std::vector<float> table{static_cast<float>(right.x), static_cast<float>(right.y)};
+  const std::vector<float> pyramid = pyramid_table(std::move(samples), padded);
+  table.insert(table.end(), pyramid.begin(), pyramid.end());
+  to.patterns.push_back({.table = static_cast<std::uint32_t>(to.tables.size()),
+                         .side = static_cast<std::uint32_t>(padded),
+                         .scale = static_cast<float>(side)});
+  to.tables.push_back(std::move(table));
+}
+
+// Appends a picture as the iris. A sample of its opening is the mean over the sample's square.
 void add_picture(const IrisShape& iris, DevicePatterns& to) {
-  constexpr double kPitch = 2.0 * kPictureExtent / kPictureSide;
   to.picture = static_cast<std::uint32_t>(to.patterns.size());
   std::vector<float> distances(kPictureSide * kPictureSide), transmittances(distances.size());
   for (std::size_t k = 0; k < distances.size(); ++k) {
-    const double column = static_cast<double>(k % kPictureSide) + 0.5,
-                 row = static_cast<double>(k / kPictureSide) + 0.5;
-    const Vec2 at{column * kPitch - kPictureExtent, kPictureExtent - row * kPitch};
-    const double distance = iris.picture_distance(at);
+    const double distance = iris.picture_distance(middle_of_sample(k));
     distances[k] = static_cast<float>(distance);
     transmittances[k] = static_cast<float>(std::clamp(0.5 - distance / kPitch, 0.0, 1.0));
   }
@@ -100,6 +126,12 @@ void add_picture(const IrisShape& iris, DevicePatterns& to) {
     to.tables.push_back(pyramid_table(std::move(*samples), kPictureSide));
     to.patterns.push_back(one);
   }
+  if (iris.has_half_tones()) add_half_tones(iris, to);
+}
+
+// The fringes of the iris's edges, also where a picture's half-tones dim them; null: there are none.
+const EdgePattern* fringes_of(const StopPattern& pattern) {
+  return pattern.toned() != nullptr ? pattern.toned()->edges() : pattern.edges();
 }
 
 DevicePattern edge_pattern(const EdgePattern& edges, const std::vector<float>& table) {
@@ -148,8 +180,13 @@ std::shared_ptr<const DevicePatterns> device_patterns(const std::vector<std::sha
   std::map<const void*, std::uint32_t> table_at;
   std::map<const PatternTexture*, DevicePattern> whole;  // that were measured
   for (const std::shared_ptr<const StopPattern>& pattern : wanted) {
-    const EdgePattern* const edges = pattern->edges();
+    const EdgePattern* const edges = fringes_of(*pattern);
     const PatternTexture* const texture = pattern->texture();
+    if (edges == nullptr && texture == nullptr) {  // half-tones within a sharp outline
+      made->owners.push_back(pattern);
+      made->patterns.push_back({.outer_radius = static_cast<float>(pattern->outer_radius()), .scale = 0.0F});
+      continue;
+    }
     const void* const from = edges != nullptr ? static_cast<const void*>(&edges->profile()) : texture;
     const auto [at, is_new] = table_at.try_emplace(from, static_cast<std::uint32_t>(made->tables.size()));
     if (is_new) {
@@ -168,7 +205,7 @@ std::shared_ptr<const DevicePatterns> device_patterns(const std::vector<std::sha
 }  // namespace
 
 KeptPatterns::Identity KeptPatterns::identity_of(const StopPattern& pattern) {
-  if (const EdgePattern* const edges = pattern.edges()) return {&edges->profile(), edges->fringe_unit()};
+  if (const EdgePattern* const edges = fringes_of(pattern)) return {&edges->profile(), edges->fringe_unit()};
   return {pattern.texture(), 0.0};
 }
 

@@ -19,7 +19,7 @@ class KeptPatterns {
   };
   explicit KeptPatterns(const Key& /*key*/) {}
 
-  // One for each of these, in their order; none is null, and none is of half-tones. Those of a picture as the iris
+  // One for each of these, in their order; none is null. Those of a picture as the iris
   // follow. Null if there are none at all.
   [[nodiscard]] std::shared_ptr<const DevicePatterns> get(const std::vector<std::shared_ptr<const StopPattern>>& wanted,
                                                           const Iris& iris);

@@ -78,6 +78,7 @@ class TonedPattern {
   [[nodiscard]] double outer_radius() const;
   [[nodiscard]] double transmittance(const StopPoint& point) const;
   [[nodiscard]] PatternRegion region(Vec2 middle, double radius, double tolerance) const;
+  [[nodiscard]] const EdgePattern* edges() const { return edges_.get(); }  // null if the outline is sharp
 
  private:
   std::shared_ptr<const IrisShape> iris_;
@@ -109,6 +110,9 @@ class StopPattern {
   [[nodiscard]] const stop_patterns::PatternTexture* texture() const {
     const auto* const pattern = std::get_if<stop_patterns::TexturePattern>(&kind_);
     return pattern != nullptr ? &pattern->texture() : nullptr;
+  }
+  [[nodiscard]] const stop_patterns::TonedPattern* toned() const {
+    return std::get_if<stop_patterns::TonedPattern>(&kind_);
   }
 
  private:

@@ -118,7 +118,7 @@ float pattern_at(vec2 place) {
     vec2 at = point_in(plane, place);
     float width = sqrt(0.5 * abs(cross2(plane.u, plane.v)) / max(seen_px, 1.0));
     all *= c + 1u == seen_crossings ? pattern_over_square(grid_pattern, at, width)
-                                    : sharp_transmittance(distance_from_iris(at), width);
+                                    : iris_over_square(at, width);
   }
   return all;
 }

@@ -18,13 +18,53 @@ float distance_from_picture(vec2 at) {
 
 float distance_from_iris(vec2 at) { return HAS_PICTURE ? distance_from_picture(at) : iris_distance(at); }
 
+// The half-tone of a picture as the iris; otherwise 1: aperture/half_tones.cpp. The square is upright in the picture, and
+// points beyond it do not count. Of a square of more than MOST_TONES samples a side, levels of the pyramid are summed.
+#define MOST_TONES 6.0
+
+// The sum of samples over a box in samples of a level, which are constant within each.
+float sum_of_tones(uint first, int side, vec2 low, vec2 high) {
+  ivec2 from = ivec2(low), to = min(ivec2(ceil(high)), ivec2(side));
+  float sum = 0.0;
+  for (ivec2 at = from; at.y < to.y; at = at.x + 1 < to.x ? ivec2(at.x + 1, at.y) : ivec2(from.x, at.y + 1)) {
+    vec2 part = min(high, vec2(at + 1)) - max(low, vec2(at));
+    sum += part.x * part.y * uintBitsToFloat(patterns[first + uint(at.y * side + at.x)]);
+  }
+  return sum;
+}
+
+float tone_over_square(vec2 at, float width) {
+  if (!HAS_PICTURE || (p.flags & FLAG_HALF_TONES) == 0u) return 1.0;
+  uint tones = p.picture + 2u, first = pattern_table(tones);
+  vec2 turn = vec2(uintBitsToFloat(patterns[first]), uintBitsToFloat(patterns[first + 1u]));
+  first += 2u;
+  int side = int(pattern_side(tones));
+  float samples = pattern_scale(tones), scale = 0.5 * samples;
+  vec2 middle = (vec2(turn.x * at.x - turn.y * at.y, turn.y * at.x + turn.x * at.y) + 1.0) * scale;
+  float half_width = 0.5 * max(width * scale, 1.0);
+  vec2 low = clamp(middle - half_width, vec2(0.0), vec2(samples));
+  vec2 high = clamp(middle + half_width, vec2(0.0), vec2(samples));
+  float area = (high.x - low.x) * (high.y - low.y), pitch = 1.0;
+  if (!(area > 0.0)) return 0.0;
+  for (uint level = 1u; level < pattern_levels(tones) && 2.0 * half_width > MOST_TONES * pitch; ++level) {
+    first += uint(side * side);
+    side /= 2;
+    pitch *= 2.0;
+  }
+  return clamp(sum_of_tones(first, side, low / pitch, high / pitch) * pitch * pitch / area, 0.0, 1.0);
+}
+
 float edge_over_square(uint pattern, float distance, float width) {
   float scale = pattern_scale(pattern);
+  if (scale == 0.0) return sharp_transmittance(distance, width);
   return profile_at(pattern_table(pattern), -scale * distance, scale * width);
 }
 
 float edges_over_square(uint pattern, vec2 at, float width) {
-  if (HAS_PICTURE || is_round_iris()) return max(edge_over_square(pattern, distance_from_iris(at), width), 0.0);
+  if (HAS_PICTURE || is_round_iris()) {
+    float open = edge_over_square(pattern, distance_from_iris(at), width);
+    return open > 0.0 ? open * tone_over_square(at, width) : 0.0;
+  }
   float all = 1.0;
   for (uint b = 0u; b < p.bound_count && all > 0.0; ++b)
     all *= edge_over_square(pattern, bound_distance(b, at), width);
@@ -35,6 +75,12 @@ float pattern_over_square(uint pattern, vec2 at, float width) {
   return pattern_side(pattern) == 0u ? edges_over_square(pattern, at, width) : texture_at(pattern, at, width);
 }
 
+// The factor of an earlier crossing of the stop, where the iris is sharp.
+float iris_over_square(vec2 at, float width) {
+  float open = sharp_transmittance(distance_from_iris(at), width);
+  return open > 0.0 ? open * tone_over_square(at, width) : 0.0;
+}
+
 // The region of a disc of the stop.
 int region_of_disc(uint pattern, Disc disc) {
   vec2 middle = disc.middle;
@@ -42,6 +88,8 @@ int region_of_disc(uint pattern, Disc disc) {
   if (pattern_side(pattern) != 0u)
     return length(middle) - radius > pattern_outer_radius(pattern) ? REGION_DARK : REGION_VARYING;
   float scale = pattern_scale(pattern), from_edge = distance_from_iris(middle);
+  if (scale == 0.0) return from_edge > radius ? REGION_DARK : REGION_VARYING;
   if (scale * (from_edge - radius) > -PROFILE_FIRST) return REGION_DARK;
+  if ((p.flags & FLAG_HALF_TONES) != 0u) return REGION_VARYING;
   return scale * (-from_edge - radius) > pattern_uniform_from(pattern) ? REGION_UNIFORM : REGION_VARYING;
 }

@@ -10,3 +10,4 @@ layout(constant_id = 1) const bool HAS_PICTURE = false;
 // Bits of the flags, besides FLAG_CIRCLE.
 #define FLAG_DIRT_IN_STOP 16u
 #define FLAG_DIRT_ON_FRONT 32u
+#define FLAG_HALF_TONES 64u  // of a picture as the iris
