@@ -114,11 +114,11 @@ Program GridFrame::choose(Program clean, Program dimmed) const {
 // The turns of loops that a pixel of a polygon takes at most: for the polygon's corners, for the iris's bounds at each
 // crossing of the stop, and for what is seen in parts.
 std::uint32_t GridFrame::turns_a_pixel() const {
-  constexpr std::uint32_t kCorners = 50, kCrossings = 3, kParts = 18, kTones = 64;
+  constexpr std::uint32_t kCorners = 50, kCrossings = 3, kTones = 64, kSamples = 16, kSquares = 64;
   std::uint32_t turns = kCorners + kCrossings * static_cast<std::uint32_t>(job_.iris.bounds().size());
   if (job_.iris.has_half_tones()) turns += kCrossings * kTones;
-  if (job_.iris.is_picture() || job_.dirt) turns += kParts * kCrossings;
-  if (job_.dirt) turns += kParts * kCrossings * (job_.dirt->most_about_cell() + 1);
+  if (job_.dirt && !job_.dirt->has_outlines)
+    turns += kCrossings * (kSamples + kSquares * (job_.dirt->most_about_cell() + 1));
   return turns;
 }
 
@@ -177,7 +177,8 @@ void GridFrame::prepare(const Frame& band, std::uint64_t batch_rays) {
     p.side = static_cast<std::uint32_t>(grid.side);
     p.bound_count = static_cast<std::uint32_t>(bounds.size() / 8);
     p.flags = style_flags() | (is_obscured(grid) ? kObscured : 0U) | dirt_flags(job_.dirt.get()) |
-              (job_.iris.has_half_tones() ? kHalfTones : 0U);
+              (job_.iris.has_half_tones() ? kHalfTones : 0U) |
+              (job_.dirt && !job_.dirt->has_outlines ? kDirtBySquares : 0U);
     if (tiled != nullptr) p.merge_threshold = static_cast<float>(tiled->merge_threshold * 0.5 * band.full_width);
     p.width = band.width;
     p.height = band.height;

@@ -7,7 +7,7 @@
 namespace contrejour::inline internal::vulkan {
 
 // Bits of the flags, besides kCircle.
-enum StopFlags : std::uint32_t { kDirtInStop = 16, kDirtOnFront = 32, kHalfTones = 64 };
+enum StopFlags : std::uint32_t { kDirtInStop = 16, kDirtOnFront = 32, kHalfTones = 64, kDirtBySquares = 128 };
 
 // A pattern of the stop, as shaders/stop/pattern.glsl reads it.
 struct PatternRecord {

@@ -33,6 +33,7 @@ struct DeviceDirt {
   // strokes block in each, and of the number of those with strokes.
   std::vector<float> blocked_before;
   std::vector<std::uint32_t> dirty_before;
+  bool has_outlines = true;  // grids of rays draw shadows as shapes' outlines (DirtField::outlines())
   std::shared_ptr<const DirtPicture> picture;  // null: none
   double clear_radius_mm = 1.0;                // that the picture spans
 

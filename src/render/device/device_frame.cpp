@@ -94,7 +94,8 @@ std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, c
                        bool draws_patterns) {
   if (lens.iris.field && !draws_patterns) return "a picture as the iris is";
   if (stops.on() && !draws_patterns) return "ringing is";
-  if (plan.dirt) return "dirt is";
+  if (plan.dirt && !draws_patterns) return "dirt is";
+  if (plan.dirt && stops.has_fringed_dirt()) return "dirt with ringing is";
   return {};
 }
 

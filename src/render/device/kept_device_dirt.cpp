@@ -72,6 +72,7 @@ std::shared_ptr<const DeviceDirt> device_dirt(const DirtField& field) {
   dirt->strokes.reserve(field.shapes().size());
   for (const DirtStroke& stroke : field.shapes()) dirt->strokes.push_back(device_stroke(stroke));
   set_cells(field, *dirt);
+  dirt->has_outlines = field.outlines() != nullptr;
   dirt->picture = field.picture();
   dirt->clear_radius_mm = field.clear_radius_mm();
   if (dirt->picture) dirt->edges_per_mm += edges_per_mm(*dirt->picture, dirt->clear_radius_mm);

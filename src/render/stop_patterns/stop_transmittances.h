@@ -37,6 +37,11 @@ class StopTransmittances {
     return lens_.iris.field != nullptr && lens_.iris.field->has_half_tones();
   }
 
+  // Whether the shadows of dirt have fringes.
+  [[nodiscard]] bool has_fringed_dirt() const {
+    return options_.mode != RingingMode::None && dirt_field_ && !dirt_field_->has_picture();
+  }
+
   // The Fresnel number of the stop's edge in a ghost, approximately; infinite where the edge is sharp.
   [[nodiscard]] double fresnel_number(const Ghost& ghost, double lambda_nm, const LightSource& light) const;
 

@@ -15,6 +15,7 @@ layout(local_size_x = 64) in;
 #ifdef DIMMED
 #include "grid_stop.glsl"
 #include "picture_cuts.glsl"
+#include "dirt_cuts.glsl"
 uint dims = 0u;  // what dims the present cell
 
 vec2 middle_of_polygon() {
@@ -67,7 +68,7 @@ void add_polygon(Density density) {
 #ifdef DIMMED
     covered *= orientation;
     if (covered <= NEGLIGIBLE_COVERAGE) continue;
-    add_light(at + base, covered * level_at(density, at) * (dims == 0u ? 1.0 : transmitted_in_pixel(dims, corner + 0.5)));
+    add_light(at + base, covered * level_at(density, at) * (dims == 0u ? 1.0 : transmitted_at(dims, corner + 0.5)));
 #else
     if (covered * orientation > 0.0) add_light(at + base, covered * orientation * level_at(density, at));
 #endif
@@ -83,7 +84,7 @@ void draw_polygon(vec2 p0, vec2 p1, vec2 p2, float flux, float fraction, vec2 gr
   // A polygon in one pixel is a line of one step.
   if (is_point || area < SLIVER * dot(to - from, to - from)) {
 #ifdef DIMMED
-    if (dims != 0u) flux *= transmitted_of_point(dims, middle_of_polygon(), floor(polygon[0]) + 0.5, !is_point);
+    if (dims != 0u) flux *= transmitted_at(dims, middle_of_polygon());
 #endif
     add_line(from, to, flux * fraction);
     return;
@@ -92,22 +93,57 @@ void draw_polygon(vec2 p0, vec2 p1, vec2 p2, float flux, float fraction, vec2 gr
   add_polygon(Density((p0 + p1 + p2) * (1.0 / 3.0), value, gradient * value));
 }
 
-#ifdef DIMMED
-// Leaves a part of the triangle that is open. Pictures clip it in parts.
-void clip_part_of_triangle(int k, int parts, uint crossing_count, bool is_cut) {
-  if (HAS_PICTURE && (dims & CLIPPED_BY_PICTURE) != 0u) {
-    vec2 corner;
-    float size;
-    find_part(k, parts, corner, size);
-    begin_part(corner, size);
-    clip_part(crossing_count, corner, size);
-    return;
-  }
+void clip_whole(uint crossing_count, bool is_cut) {
   begin_triangle();
   if (is_cut)
     clip_triangle(crossing_count);
   else
     keep_few();
+}
+
+// Draws the invocation's polygon in (u, v), a part of a triangle of rays.
+void draw_part(vec2 p0, vec2 p1, vec2 p2, float flux, vec2 gradient) {
+  float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
+  for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;
+  draw_polygon(p0, p1, p2, flux, fraction, gradient);
+}
+
+#ifdef DIMMED
+// Leaves the open part of a part of the triangle.
+void clip_part(vec2 corner, float size, uint crossing_count, bool is_cut) {
+  begin_part(corner, size);
+  bool by_picture = HAS_PICTURE && (dims & CLIPPED_BY_PICTURE) != 0u;
+  if (by_picture) cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
+  for (uint c = 0u; c < crossing_count && by_picture && corner_count >= 3; ++c) clip_by_picture(c, corner, size);
+  if (is_cut && !by_picture)
+    clip_triangle(crossing_count);
+  else
+    end_cuts();
+}
+
+// Draws a triangle in parts, each with its shadows. Returns the polygons drawn.
+uint draw_parts(vec2 p[3], uint crossing_count, bool is_cut, float flux, vec2 gradient) {
+  bool has_shadows = (dims & CUT_BY_DIRT) != 0u;
+  int parts = (dims & CLIPPED_BY_PICTURE) != 0u ? picture_parts(p, crossing_count) : 1;
+  if (has_shadows) parts = max(parts, shadow_parts(p));
+  uint drawn = 0u;
+  for (int k = 0; k < parts * parts; ++k) {
+    vec2 corner;
+    float size;
+    find_part(k, parts, corner, size);
+    unshadowed = 1.0;
+    if (has_shadows) find_shadows(corner, size);
+    for (int term = 0; term < shadow_terms(); ++term) {
+      ivec2 shadows = shadows_of_term(term);
+      clip_part(corner, size, crossing_count, is_cut);
+      if (corner_count < 3) break;
+      cut_by_shadows(shadows, corner, size);
+      if (corner_count < 3) continue;
+      draw_part(p[0], p[1], p[2], flux * factor_of_term(shadows), gradient);
+      ++drawn;
+    }
+  }
+  return drawn;
 }
 #endif
 
@@ -116,32 +152,17 @@ uint draw_triangle(uvec3 t, uint crossing_count, bool is_cut, vec2 gradient) {
   vec4 r0 = ray_of(t.x), r1 = ray_of(t.y), r2 = ray_of(t.z);
   if (failed(r0) || failed(r1) || failed(r2)) return 0u;
   vec2 p0 = r0.xy - vec2(base), p1 = r1.xy - vec2(base), p2 = r2.xy - vec2(base);
+  float flux = (r0.z + r1.z + r2.z) / 3.0;
   set_triangle(t, crossing_count);
 #ifdef DIMMED
   if (dims != 0u) see_triangle(t, crossing_count, vec2(base));
-  uint drawn = 0u;
-  bool in_parts = HAS_PICTURE && (dims & CLIPPED_BY_PICTURE) != 0u;
-  int parts = in_parts ? picture_parts(vec2[3](p0, p1, p2), crossing_count) : 1;
-  for (int part = 0; part < parts * parts; ++part) {
-    clip_part_of_triangle(part, parts, crossing_count, is_cut);
-    if (corner_count < 3) continue;
-    ++drawn;
+  return draw_parts(vec2[3](p0, p1, p2), crossing_count, is_cut, flux, gradient);
 #else
-  const uint drawn = 1u;
-  begin_triangle();
-  if (is_cut)
-    clip_triangle(crossing_count);
-  else
-    keep_few();
+  clip_whole(crossing_count, is_cut);
   if (corner_count < 3) return 0u;
+  draw_part(p0, p1, p2, flux, gradient);
+  return 1u;
 #endif
-  float fraction = abs(twice_polygon_area());  // in (u, v) the whole triangle's area is 1/2
-  for (int k = 0; k < corner_count; ++k) polygon[k] = p0 + (p1 - p0) * polygon[k].x + (p2 - p0) * polygon[k].y;
-  draw_polygon(p0, p1, p2, (r0.z + r1.z + r2.z) / 3.0, fraction, gradient);
-#ifdef DIMMED
-  }
-#endif
-  return drawn;
 }
 
 uint draw_half(uvec4 cell, bool is_second) {

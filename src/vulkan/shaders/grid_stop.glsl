@@ -11,16 +11,18 @@ layout(set = 0, binding = 42) uniform usamplerBuffer grid_texels;  // four a gri
 
 // Bits of what dims a cell.
 #define DIMMED_BY_PATTERN 1u
-#define DIMMED_BY_DIRT 2u
+#define DIMMED_BY_DIRT 2u      // a picture of dirt, or dense dirt
 #define CLIPPED_BY_PICTURE 4u  // as the iris, with a sharp outline
-#define DIMMED_TO_NOTHING 8u
+#define CUT_BY_DIRT 8u         // shapes of dirt, whose shadows are polygons
+#define DIMMED_TO_NOTHING 16u
 
 // The present grid.
-uint grid_pattern, grid_first_ray, grid_side;
+uint present_grid, grid_pattern, grid_first_ray, grid_side;
 float grid_outer_radius;  // of which crossings of the stop are multiples, stop radii
 
 void set_grid(uint grid) {
   uvec4 words = texelFetch(grid_texels, int(4u * grid));
+  present_grid = grid;
   grid_pattern = words.x;
   grid_outer_radius = uintBitsToFloat(words.y);
   grid_first_ray = words.z;
@@ -35,6 +37,32 @@ Disc disc_about(vec2 q[4]) {
   float radius = 0.0;
   for (int k = 0; k < 4; ++k) radius = max(radius, length(q[k] - middle));
   return Disc(middle, DISC_OF_CORNERS * radius);
+}
+
+// Where the ray crosses the front, mm: DirtSite::front_point().
+vec2 front_point(uint ray, uint grid) {
+  uvec4 window = texelFetch(grid_texels, int(4u * grid + 1u)), light = texelFetch(grid_texels, int(4u * grid + 2u));
+  float gap = uintBitsToFloat(texelFetch(grid_texels, int(4u * grid + 3u)).x);
+  uint own = ray - grid_first_ray;
+  vec2 from = vec2(own % grid_side, own / grid_side) * uintBitsToFloat(window.zw);
+  vec3 along = uintBitsToFloat(light.xyz);
+  along.xy += from * uintBitsToFloat(light.w);
+  return uintBitsToFloat(window.xy) + from + along.xy * (gap / along.z);
+}
+
+vec2 point_of_ray(uint ray, uint k) { return k == POINT_FRONT ? front_point(ray, present_grid) : stop_point(ray, k); }
+
+// The bit of how dirt dims the cell of four rays in order.
+uint dirt_of_cell(uvec4 v, uint crossing_count, bool any_failed) {
+  bool dirty = false;
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!has_dirt_at(k, crossing_count)) continue;
+    vec2 q[4];
+    for (int j = 0; j < 4; ++j) q[j] = point_of_ray(v[j], k);
+    dirty = dirty || any_failed || is_dirty(disc_about(q));
+  }
+  if (!dirty) return 0u;
+  return (p.flags & FLAG_DIRT_BY_SQUARES) != 0u ? DIMMED_BY_DIRT : CUT_BY_DIRT;
 }
 
 // What dims the cell of four rays in order. If a ray has failed, patterns count as varying, and the cell as dirty.
@@ -59,45 +87,36 @@ uint dimming_of(uvec4 v, uint crossing_count, bool any_failed) {
       if (region == REGION_VARYING) dims |= CLIPPED_BY_PICTURE;
     }
   }
-  return dims;
+  return dims | dirt_of_cell(v, crossing_count, any_failed);
 }
 
-// The triangle whose pixels are looked up: its corners in pixels, where they cross the stop, and its area.
+// The triangle whose pixels are looked up: its corners in pixels, where they cross the stop and the front, and its area.
 vec2 seen_pixels[3];
-vec2 seen_stops[MAX_CROSSINGS][3];
+vec2 seen_points[POINTS][3];  // stop radii, or mm on the front
 float seen_px;
 uint seen_crossings;
 
 void see_triangle(uvec3 t, uint crossing_count, vec2 origin) {
   for (int k = 0; k < 3; ++k) {
     seen_pixels[k] = ray_of(t[k]).xy - origin;
-    for (uint c = 0u; c < MAX_CROSSINGS; ++c) seen_stops[c][k] = c < crossing_count ? stop_point(t[k], c) : vec2(0.0);
+    for (uint c = 0u; c < MAX_CROSSINGS; ++c) seen_points[c][k] = c < crossing_count ? stop_point(t[k], c) : vec2(0.0);
+    if (has_dirt_at(POINT_FRONT, crossing_count)) seen_points[POINT_FRONT][k] = point_of_ray(t[k], POINT_FRONT);
   }
   seen_px = abs(0.5 * cross2(seen_pixels[1] - seen_pixels[0], seen_pixels[2] - seen_pixels[0]));
   seen_crossings = crossing_count;
 }
 
-// Points of the triangle at a crossing of the stop.
+// Points of the triangle at a crossing of the stop, or on the front.
 struct SeenPlane {
   vec2 origin, u, v;
 };
 SeenPlane plane_at(uint c) {
-  return SeenPlane(seen_stops[c][0], seen_stops[c][1] - seen_stops[c][0], seen_stops[c][2] - seen_stops[c][0]);
+  return SeenPlane(seen_points[c][0], seen_points[c][1] - seen_points[c][0], seen_points[c][2] - seen_points[c][0]);
 }
 vec2 point_in(SeenPlane plane, vec2 place) { return plane.origin + plane.u * place.x + plane.v * place.y; }
 vec2 way_in(SeenPlane plane, vec2 way) { return plane.u * way.x + plane.v * way.y; }
 
-// Places in the triangle are (u, v) from its first corner. This map turns a way in pixels into one of these. A thin
-// triangle counts as thicker, so that pixels beside it do not see far beyond it.
-mat2 from_pixels() {
-  vec2 a = seen_pixels[1] - seen_pixels[0], b = seen_pixels[2] - seen_pixels[0];
-  float longest = max(max(length(a), length(b)), length(a - b)), thickness = 2.0 * seen_px / longest;
-  float least = min(0.1 * longest, 1.0), extra = thickness < least ? least * least - thickness * thickness : 0.0;
-  float aa = dot(a, a) + extra, bb = dot(b, b) + extra, ab = dot(a, b), scale = 1.0 / (aa * bb - ab * ab);
-  return transpose(mat2((a * bb - b * ab) * scale, (b * aa - a * ab) * scale));
-}
-
-// The place in the triangle that is nearest to another one, in these coordinates.
+// Places in the triangle are (u, v) from its first corner. This is the nearest to another one, in these coordinates.
 vec2 nearest_in_triangle(vec2 place) {
   place = max(place, vec2(0.0));
   return place / max(place.x + place.y, 1.0);
@@ -123,77 +142,23 @@ float pattern_at(vec2 place) {
   return all;
 }
 
-// What shapes with sharp edges leave of a parallelogram about a place, whose sides are ways in the triangle.
-float shapes_at(uint dims, vec2 place, vec2 across, vec2 down) {
-  float all = 1.0;
-  for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
-    if (c >= seen_crossings) break;
-    SeenPlane plane = plane_at(c);
-    vec2 at = point_in(plane, place), x = way_in(plane, across), y = way_in(plane, down);
-    if ((dims & DIMMED_BY_DIRT) != 0u) {
-      float mm = dirt_float(DIRT_MM_A_UNIT);
-      all *= dirt_transmission(at * mm, x * mm, y * mm);
-    }
+// What a picture of dirt, or dense dirt, transmits about a place likewise.
+float dirt_at(vec2 place) {
+  float all = 1.0, mm = dirt_float(DIRT_MM_A_UNIT);
+  for (uint k = 0u; k < POINTS; ++k) {
+    if (!has_dirt_at(k, seen_crossings)) continue;
+    SeenPlane plane = plane_at(k);
+    float width = sqrt(0.5 * abs(cross2(plane.u, plane.v)) / max(seen_px, 1.0));
+    all *= dirt_over_square(point_in(plane, place) * mm, width * mm);
   }
   return all;
 }
 
-// Says whether shapes leave all of a parallelogram, or a part.
-int region_of_shapes(uint dims, vec2 place, vec2 across, vec2 down) {
-  int all = REGION_UNIFORM;
-  for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
-    if (c >= seen_crossings) break;
-    SeenPlane plane = plane_at(c);
-    Disc disc = Disc(point_in(plane, place), 0.5 * (length(way_in(plane, across)) + length(way_in(plane, down))));
-    if ((dims & DIMMED_BY_DIRT) != 0u && is_dirty(disc)) all = REGION_VARYING;
-  }
+// What is transmitted about a point in the triangle, in pixels.
+float transmitted_at(uint dims, vec2 pixel) {
+  vec2 place = place_of(pixel);
+  float all = 1.0;
+  if ((dims & DIMMED_BY_PATTERN) != 0u) all *= pattern_at(place);
+  if ((dims & DIMMED_BY_DIRT) != 0u) all *= dirt_at(place);
   return all;
-}
-
-#define SEEN_PARTS 4      // of a pixel or of a triangle, a side
-#define SMALL_SEEN 0.05   // pixels of a triangle that has the mean over itself in all pixels
-
-// What shapes leave of a pixel, from its middle. All larger triangles in a pixel have its mean, as seen through their
-// own maps: a mean over the part of it that each covers would need as many parts for each.
-float shapes_in_pixel(uint dims, vec2 middle) {
-  mat2 to_place = from_pixels();
-  vec2 from = middle - (seen_pixels[0] + seen_pixels[1] + seen_pixels[2]) * (1.0 / 3.0), middle_place = vec2(1.0 / 3.0);
-  const float size = 1.0 / float(SEEN_PARTS);
-  int region = region_of_shapes(dims, middle_place + to_place * from, to_place[0], to_place[1]);
-  if (region == REGION_UNIFORM) return 1.0;
-  float sum = 0.0;
-  for (int k = 0; k < SEEN_PARTS * SEEN_PARTS; ++k) {
-    vec2 part = from + (vec2(k % SEEN_PARTS, k / SEEN_PARTS) + 0.5) * size - 0.5;
-    sum += shapes_at(dims, middle_place + to_place * part, size * to_place[0], size * to_place[1]);
-  }
-  return sum / float(SEEN_PARTS * SEEN_PARTS);
-}
-
-// What they leave of the whole triangle.
-float shapes_in_triangle(uint dims) {
-  const float size = 1.0 / float(SEEN_PARTS);
-  float sum = 0.0;
-  for (int k = 0; k < SEEN_PARTS * SEEN_PARTS; ++k) {
-    ivec2 at = ivec2(k % SEEN_PARTS, k / SEEN_PARTS);
-    bool is_upper = at.x + at.y >= SEEN_PARTS;  // half of the parallelogram's parts have their mirror image here
-    vec2 place = (vec2(is_upper ? SEEN_PARTS - 1 - at : at) + (is_upper ? 2.0 / 3.0 : 1.0 / 3.0)) * size;
-    sum += shapes_at(dims, place, 0.70710678 * size * vec2(1.0, 0.0), 0.70710678 * size * vec2(0.0, 1.0));
-  }
-  return sum / float(SEEN_PARTS * SEEN_PARTS);
-}
-
-// What is transmitted in a pixel of the triangle, from its middle.
-float transmitted_in_pixel(uint dims, vec2 middle) {
-  float all = 1.0;
-  if ((dims & DIMMED_BY_PATTERN) != 0u) all = pattern_at(place_of(middle));
-  if ((dims & DIMMED_BY_DIRT) == 0u) return all;
-  return all * (seen_px < SMALL_SEEN ? shapes_in_triangle(dims) : shapes_in_pixel(dims, middle));
-}
-
-// What is transmitted of a polygon that is drawn as a point or a line, about its middle. pixel: the middle of its pixel.
-float transmitted_of_point(uint dims, vec2 middle, vec2 pixel, bool is_line) {
-  float all = 1.0;
-  if ((dims & DIMMED_BY_PATTERN) != 0u) all = pattern_at(place_of(middle));
-  if ((dims & DIMMED_BY_DIRT) == 0u) return all;
-  return all * (is_line || seen_px < SMALL_SEEN ? shapes_in_triangle(dims) : shapes_in_pixel(dims, pixel));
 }

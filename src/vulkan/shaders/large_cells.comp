@@ -17,7 +17,7 @@ float transmitted_in(uvec3 words, ivec2 pixel) {
   if (seen_dims(words) == 0u) return 1.0;
   set_grid(words.z);
   see_triangle(seen_rays(words, grid_side), seen_crossing_count(words), vec2(pixel));
-  return transmitted_in_pixel(seen_dims(words), vec2(0.5));
+  return transmitted_at(seen_dims(words), vec2(0.5));
 }
 #endif
 

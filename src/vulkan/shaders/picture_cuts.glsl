@@ -38,18 +38,15 @@ void begin_part(vec2 corner, float size) {
   corner_count = 3;
 }
 
-void clip_by_picture(uint c, vec2 corner, float size) {
-  vec2 u = stops_of_triangle[c][1] - stops_of_triangle[c][0], v = stops_of_triangle[c][2] - stops_of_triangle[c][0];
-  vec2 at = stops_of_triangle[c][0] + u * corner.x + v * corner.y;
-  float here = picture_distance(at);
-  vec2 slope = (vec2(picture_distance(at + size * u), picture_distance(at + size * v)) - here) / size;
-  float at_0 = here - dot(slope, corner);
+// Keeps where a function that is linear over a part is <= 0, from its values at the part's corners.
+void cut_part(vec3 values, vec2 corner, float size) {
+  vec2 slope = (values.yz - values.x) / size;
+  float at_0 = values.x - dot(slope, corner);
   cut(at_0, at_0 + slope.x, at_0 + slope.y);
 }
 
-// Leaves the open part of a part.
-void clip_part(uint crossing_count, vec2 corner, float size) {
-  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
-  for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_picture(c, corner, size);
-  end_cuts();
+void clip_by_picture(uint c, vec2 corner, float size) {
+  vec2 u = stops_of_triangle[c][1] - stops_of_triangle[c][0], v = stops_of_triangle[c][2] - stops_of_triangle[c][0];
+  vec2 at = stops_of_triangle[c][0] + u * corner.x + v * corner.y;
+  cut_part(vec3(picture_distance(at), picture_distance(at + size * u), picture_distance(at + size * v)), corner, size);
 }

@@ -93,3 +93,37 @@ int region_of_disc(uint pattern, Disc disc) {
   if ((p.flags & FLAG_HALF_TONES) != 0u) return REGION_VARYING;
   return scale * (-from_edge - radius) > pattern_uniform_from(pattern) ? REGION_UNIFORM : REGION_VARYING;
 }
+
+// The fraction of a square, which lies along a stroke, that the stroke covers: covered_fraction() of
+// render/planning/dirt_field.cpp.
+float covered_square(Stroke s, vec2 at, float width) {
+  vec2 own = along_and_across(s, at - s.middle);
+  if (width < 2.0 * s.half_width) {
+    float beyond = max(abs(own.x) - s.half_length, 0.0), distance = length(vec2(beyond, own.y)) - s.half_width;
+    if (abs(distance) > width) return distance < 0.0 ? 1.0 : 0.0;
+    float inwards = beyond > 0.0 ? s.half_width - sqrt(s.half_width * s.half_width - width * width / 12.0) : 0.0;
+    return sharp_transmittance(distance + inwards, width);
+  }
+  return overlap(own.x, 2.0 * s.half_length + 0.5 * 3.14159265 * s.half_width, width) *
+         overlap(own.y, 2.0 * s.half_width, width);
+}
+
+#define MOST_SQUARES 8  // a side, of a square that is wider than a cell
+
+// What shapes of dirt and a picture of it transmit, as the mean over a square: DirtField::transmission(). mm.
+float dirt_over_square(vec2 at, float width) {
+  int parts = clamp(int(ceil(width / dirt_cell_mm())), 1, MOST_SQUARES);
+  float sum = 0.0, part_width = width / float(parts);
+  for (int k = 0; k < parts * parts; ++k) {
+    vec2 middle = at + ((vec2(k % parts, k / parts) + 0.5) / float(parts) - 0.5) * width;
+    uint cell = dirt[DIRT_FIRST_AT] + dirt_cell_of(middle.y) * dirt[DIRT_CELLS] + dirt_cell_of(middle.x);
+    float left = 1.0;
+    for (uint j = dirt[cell], end = dirt[cell + 1u]; j < end; ++j) {
+      Stroke s = stroke_at(dirt[dirt[DIRT_OF_CELL_AT] + j]);
+      left *= 1.0 - s.opacity * covered_square(s, middle, part_width);
+    }
+    sum += left;
+  }
+  float all = sum / float(parts * parts);
+  return dirt[DIRT_PICTURE_AT] == 0u ? all : all * picture_transmission(at, vec2(width, 0.0), vec2(0.0, width));
+}

@@ -11,3 +11,4 @@ layout(constant_id = 1) const bool HAS_PICTURE = false;
 #define FLAG_DIRT_IN_STOP 16u
 #define FLAG_DIRT_ON_FRONT 32u
 #define FLAG_HALF_TONES 64u  // of a picture as the iris
+#define FLAG_DIRT_BY_SQUARES 128u  // grids of rays: dirt is no outlines of shapes
