@@ -454,6 +454,8 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
 }
 
 void GridFrame::make_room(std::uint64_t& batch_rays) {
+  if ((counters_[kOverflows] & kTurnsOverflow) != 0)
+    throw std::runtime_error("its driver ended a loop over polygons or their parts early");
   const std::uint64_t needed = counters_[kMostTileEntries];
   const std::uint64_t most = device_.most_of(Slot::TileLists, sizeof(std::uint32_t));
   const bool only_lists = counters_[kOverflows] == kListsOverflow;

@@ -2,29 +2,15 @@
 // Frames of `adaptive` of lenses with dirt, which a device looks up pixel by pixel, against the CPU's at a sixth of the
 // error.
 #include "device_frames.h"
+#include "stop_scenes.h"
 
 using namespace contrejour;
 using test::agreement_of, test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
+using test::dirt_bars, test::dirty_lens, test::dust_and_scratches;
 
 namespace {
 
 constexpr double kDirtError = 0.003;
-
-LensState dirty_lens(const Dirt& dirt, double f_number, const std::string& name = "heliar") {
-  LensState lens = lens_of(name, 7, f_number);
-  lens.dirt = dirt;
-  return lens;
-}
-
-Dirt dust_and_scratches(DirtPlane plane) {
-  Dirt dirt;
-  dirt.dust_per_cm2 = 40.0;
-  dirt.dust_mm = 0.3;
-  dirt.scratches_per_cm2 = 10.0;
-  dirt.scratch_width_mm = 0.05;
-  dirt.plane = plane;
-  return dirt;
-}
 
 // Checks the device's picture, that the dirt is visible (that a clean lens does not come as near), and that the bits
 // are the same each time.
@@ -45,16 +31,6 @@ FrameSettings dirt_settings(const LensState& lens, int width = 128, int height =
   settings.wavelengths = 3;
   settings.selection = SelectBrightest{10};
   return settings;
-}
-
-// Dark bars on white.
-std::shared_ptr<const DirtPicture> dirt_bars() {
-  constexpr int kSide = 24;
-  std::vector<float> level;
-  for (int k = 0; k < kSide * kSide; ++k) level.push_back(k % kSide % 6 < 2 ? 0.25F : 1.0F);
-  const auto picture = DirtPicture::from_levels(level, kSide, kSide);
-  REQUIRE(picture.has_value());
-  return *picture;
 }
 
 }  // namespace

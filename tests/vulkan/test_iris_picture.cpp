@@ -4,33 +4,14 @@
 #include <cmath>
 
 #include "device_frames.h"
+#include "stop_scenes.h"
 
 using namespace contrejour;
-using test::frame_by, test::kTwoLights, test::lens_of, test::settings_of, test::OnDevice;
+using test::frame_by, test::kTwoLights, test::settings_of, test::star_lens, test::OnDevice;
 
 namespace {
 
 constexpr double kPictureError = 0.003;
-
-// A star with a hole; half_tones: with waves of light and dark.
-LensState star_lens(bool half_tones, double f_number) {
-  constexpr int kSide = 128;
-  std::vector<float> level;
-  for (int k = 0; k < kSide * kSide; ++k) {
-    const double x = 2.0 * (k % kSide + 0.5) / kSide - 1.0, y = 2.0 * (k / kSide + 0.5) / kSide - 1.0;
-    const bool open =
-        std::hypot(x, y) < 0.6 + 0.3 * std::cos(5.0 * std::atan2(y, x)) && std::hypot(x - 0.1, y - 0.1) > 0.15;
-    const double tone = half_tones ? 0.65 + 0.35 * std::sin(9.0 * x) * std::cos(7.0 * y) : 1.0;
-    level.push_back(open ? static_cast<float>(tone) : 0.0F);
-  }
-  const auto field = IrisField::from_levels(level, kSide, kSide);
-  REQUIRE(field.has_value());
-  REQUIRE((*field)->has_half_tones() == half_tones);
-  LensState lens = lens_of("heliar", 0, f_number);
-  lens.iris.field = *field;
-  lens.iris.rotation_rad = 0.3;
-  return lens;
-}
 
 void check_picture(const Dirt& dirt = {}) {
   OnDevice device;

@@ -17,6 +17,7 @@ layout(local_size_x = 64) in;
 #include "picture_cuts.glsl"
 #include "dirt_cuts.glsl"
 uint dims = 0u;  // what dims the present cell
+bool draws_points = true;  // polygons within a pixel; those of a larger triangle have its gradient
 
 vec2 middle_of_polygon() {
   vec2 sum = vec2(0.0);
@@ -79,7 +80,11 @@ void add_polygon(Density density) {
 void draw_polygon(vec2 p0, vec2 p1, vec2 p2, float flux, float fraction, vec2 gradient) {
   float area = abs(0.5 * cross2(p1 - p0, p2 - p0));
   vec2 from = polygon[0], to = polygon[0];
+#ifdef DIMMED
+  bool is_point = draws_points && in_one_pixel();
+#else
   bool is_point = in_one_pixel();
+#endif
   if (!is_point) farthest_corners(from, to);
   // A polygon in one pixel is a line of one step.
   if (is_point || area < SLIVER * dot(to - from, to - from)) {
@@ -121,13 +126,33 @@ void clip_part(vec2 corner, float size, uint crossing_count, bool is_cut) {
     end_cuts();
 }
 
+vec2 place_in_pixels(vec2 p[3], vec2 place) { return p[0] + (p[1] - p[0]) * place.x + (p[2] - p[0]) * place.y; }
+
+// Whether the invocation's polygon, in (u, v), lies in one pixel: it has the mean of the dirt about its middle.
+bool is_within_pixel(vec2 p[3]) {
+  vec2 first = floor(place_in_pixels(p, polygon[0]));
+  for (int k = 1; k < corner_count; ++k)
+    if (floor(place_in_pixels(p, polygon[k])) != first) return false;
+  return true;
+}
+
 // Draws a triangle in parts, each with its shadows. Returns the polygons drawn.
 uint draw_parts(vec2 p[3], uint crossing_count, bool is_cut, float flux, vec2 gradient) {
-  bool has_shadows = (dims & CUT_BY_DIRT) != 0u;
-  int parts = (dims & CLIPPED_BY_PICTURE) != 0u ? picture_parts(p, crossing_count) : 1;
+  bool has_shadows = (dims & CUT_BY_DIRT) != 0u, by_picture = (dims & CLIPPED_BY_PICTURE) != 0u;
+  if (has_shadows && !by_picture) {
+    clip_whole(crossing_count, is_cut);
+    if (corner_count < 3) return 0u;
+    if (is_within_pixel(p)) {
+      draw_part(p[0], p[1], p[2], flux * dirt_at(place_of(place_in_pixels(p, middle_of_polygon()))), gradient);
+      return 1u;
+    }
+    draws_points = false;
+  }
+  int parts = by_picture ? picture_parts(p, crossing_count) : 1;
   if (has_shadows) parts = max(parts, shadow_parts(p));
   uint drawn = 0u;
-  for (int k = 0; k < parts * parts; ++k) {
+  int k = 0;
+  for (; k < parts * parts; ++k) {
     vec2 corner;
     float size;
     find_part(k, parts, corner, size);
@@ -137,12 +162,16 @@ uint draw_parts(vec2 p[3], uint crossing_count, bool is_cut, float flux, vec2 gr
       ivec2 shadows = shadows_of_term(term);
       clip_part(corner, size, crossing_count, is_cut);
       if (corner_count < 3) break;
+      bool is_point = has_shadows && by_picture && is_within_pixel(p);
+      if (is_point) unshadowed = dirt_at(place_of(place_in_pixels(p, middle_of_polygon())));
       cut_by_shadows(shadows, corner, size);
       if (corner_count < 3) continue;
       draw_part(p[0], p[1], p[2], flux * factor_of_term(shadows), gradient);
       ++drawn;
+      if (is_point) break;
     }
   }
+  if (k < parts * parts) atomicOr(counters[COUNT_OVERFLOWS], OVERFLOW_TURNS);
   return drawn;
 }
 #endif

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shadows of dirt in a part of a triangle of rays (picture_cuts.glsl), as polygons that are drawn as negative light:
-// render/bundle/cell_raster.cpp, draw_shadows(). A stroke's edge is straight in a part; one that is narrower than the
-// part is a rectangle of its width and area. Included after grid_stop.glsl and picture_cuts.glsl.
-#define MOST_SHADOWS 6       // of a part that are drawn as polygons; others dim all of the part by their mean
-#define SHADOW_PART_PX 0.5   // of a part's sides
+// render/bundle/cell_raster.cpp, draw_shadows(). A large stroke's edge is straight in a part; others have octagons in
+// place of their round ends. Included after grid_stop.glsl and picture_cuts.glsl.
+#define MOST_SHADOWS 8       // of a part that are drawn as polygons; others dim all of the part by their mean
+#define SHADOW_PART_PX 1.0   // of a part's sides
+#define LARGE_STROKE 3.0     // half the width over a part's sides, from which on the edge is straight in a part
+// The chord of a large stroke's round end lies within it, by about this over the part's longest side squared and times
+// the radius: it is moved outwards, so that shadows keep their areas. Fitted to the fluxes of the CPU's frames.
+#define BULGE 0.04
+// Half a round end of radius 1 as three sides of an octagon, whose area is that of half a disc: the distance of the end
+// from the stroke's line, and the distance of its corners, as the sum of both coordinates.
+#define END_REACH 0.96
+#define CORNER_REACH 1.369
 
 uint shadow_strokes[MOST_SHADOWS], shadow_planes[MOST_SHADOWS];
 float shadow_opacities[MOST_SHADOWS];
@@ -82,22 +90,31 @@ float factor_of_term(ivec2 shadows) {
   return shadows.x == shadows.y ? first : -first * shadow_opacities[shadows.y];
 }
 
+// The largest values of a stroke's side, end and corners, in own coordinates: eight straight edges.
+float edge_of_outline(Stroke s, int axis) {
+  if (axis == 0) return s.half_length + END_REACH * s.half_width;
+  return axis == 1 ? s.half_width : s.half_length + CORNER_REACH * s.half_width;
+}
+
 void cut_by_shadow(int shadow, vec2 corner, float size) {
   Stroke s = stroke_at(shadow_strokes[shadow]);
   vec2 q[3] = part_in_plane(shadow_planes[shadow], corner, size);
   float longest = longest_side(q);
   vec2 own[3];
   for (int j = 0; j < 3; ++j) own[j] = along_and_across(s, q[j] - s.middle);
-  if (s.half_width >= longest) {
-    vec3 distances = vec3(stroke_distance(s, own[0]), stroke_distance(s, own[1]), stroke_distance(s, own[2]));
-    cut_part(distances, corner, size);
-    return;
-  }
-  vec2 most = vec2(s.half_length + 0.25 * 3.14159265 * s.half_width, s.half_width);
-  for (int side = 0; side < 4; ++side) {
-    float way = side < 2 ? 1.0 : -1.0;
-    int axis = side & 1;
-    cut_part(way * vec3(own[0][axis], own[1][axis], own[2][axis]) - most[axis], corner, size);
+  bool is_large = s.half_width >= LARGE_STROKE * longest;
+  bool is_at_end = max(max(abs(own[0].x), abs(own[1].x)), abs(own[2].x)) > s.half_length;
+  float bulge = is_at_end ? BULGE * longest * longest / s.half_width : 0.0;
+  for (int side = 0; side < (is_large ? 1 : 8); ++side) {
+    vec2 way = vec2((side & 1) != 0 ? -1.0 : 1.0, (side & 2) != 0 ? -1.0 : 1.0);
+    int axis = side < 2 ? 0 : side < 4 ? 1 : 2;
+    vec3 values;
+    for (int j = 0; j < 3; ++j) {
+      vec2 at = axis == 1 ? own[j] * way.xx : own[j] * way;
+      values[j] = is_large ? stroke_distance(s, own[j]) - bulge
+                           : (axis == 0 ? at.x : axis == 1 ? at.y : at.x + at.y) - edge_of_outline(s, axis);
+    }
+    cut_part(values, corner, size);
   }
 }
 
