@@ -76,14 +76,16 @@ void upload_paths(DeviceContext& device, const PathData& data) {
 }
 
 void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceGrid& grid, const PathPlace& place,
-                    const Parameters& parameters) {
+                    const Parameters& parameters, bool through_picture) {
   const bool in_double = grid.precision == PacketPrecision::Double;
   const auto bytes = [](std::uint32_t numbers, std::size_t size) { return numbers * static_cast<std::uint32_t>(size); };
   device.set_path({in_double ? 0 : bytes(place.reals_at, sizeof(float)),
                    in_double ? bytes(place.reals_at, sizeof(double)) : 0,
                    bytes(place.integers_at, sizeof(std::int32_t))});
-  device.dispatch({in_double ? Shader::TraceDouble : Shader::TraceFloat, grid.path.geometry()}, parameters,
-                  groups_of(ray_count(grid), info));
+  Program program({in_double ? Shader::TraceDouble : Shader::TraceFloat, grid.path.geometry()});
+  if (through_picture) program.shader = in_double ? Shader::TracePictureDouble : Shader::TracePictureFloat;
+  program.has_picture = through_picture;
+  device.dispatch(program, parameters, groups_of(ray_count(grid), info));
 }
 
 GridFrame::GridFrame(DeviceContext& device, const DeviceInfo& info, const GridJob& job, const BatchLimits& limits,
@@ -117,7 +119,7 @@ std::uint32_t GridFrame::turns_a_pixel() const {
   constexpr std::uint32_t kCorners = 50, kCrossings = 3, kTones = 64, kSamples = 16, kSquares = 64;
   std::uint32_t turns = kCorners + kCrossings * static_cast<std::uint32_t>(job_.iris.bounds().size());
   if (job_.iris.has_half_tones()) turns += kCrossings * kTones;
-  if (job_.dirt && !job_.dirt->has_outlines)
+  if (job_.dirt && (is_tiled() || !job_.dirt->has_outlines))
     turns += kCrossings * (kSamples + kSquares * (job_.dirt->most_about_cell() + 1));
   return turns;
 }
@@ -158,9 +160,7 @@ void GridFrame::prepare(const Frame& band, std::uint64_t batch_rays) {
   places_.assign(grids_in_order_.size(), {});
   const auto* const tiled = std::get_if<TiledOptions>(&job_.style);
   const std::vector<float> bounds = job_.iris.is_picture() ? kNoBound : bound_numbers(job_.iris);
-  const std::int32_t fitting = is_dimmed()                  ? dimmed_pixels()
-                               : info_.kind == "processor" ? kLargeOnProcessor
-                                                           : kLarge;
+  const std::int32_t fitting = is_dimmed() ? dimmed_pixels() : info_.kind == "processor" ? kLargeOnProcessor : kLarge;
   const std::int32_t large_pixels = kept_.large_pixels > 0 ? kept_.large_pixels : fitting;
   std::size_t end = 0;  // of the batch
   std::uint64_t ray = 0;  // of the batch
@@ -219,7 +219,8 @@ void GridFrame::upload_stops() {
                        .front_gap_mm = narrow(grid.front_gap_mm)});
   }
   device_.upload(Slot::Items, records);
-  work_.uploaded_bytes += sizeof(GridRecord) * records.size() + tables_.upload(device_, info_, job_.patterns, job_.dirt);
+  work_.uploaded_bytes +=
+      sizeof(GridRecord) * records.size() + tables_.upload(device_, info_, job_.patterns, job_.dirt);
 }
 
 // Grids with a stop pattern are traced through a circle as large as the pattern.
@@ -228,7 +229,7 @@ void GridFrame::trace(std::size_t first, std::size_t end) {
     const DeviceGrid& grid = *grids_in_order_[k];
     Parameters p = grids_[k];
     if (grid.pattern != DevicePatterns::kNone) p.flags |= kCircle;
-    dispatch_trace(device_, info_, grid, places_[k], p);
+    dispatch_trace(device_, info_, grid, places_[k], p, is_tiled() && job_.iris.is_picture());
     work_.rays += ray_count(grid);
   }
 }
@@ -309,7 +310,7 @@ void GridFrame::merge(std::span<const Parameters> runs) {
       p.blocks_at = levels.at(level);
       p.finer_side = level > 0 ? levels.side(level - 1) : 0;
       p.finer_at = level > 0 ? levels.at(level - 1) : 0;
-      device_.dispatch(level == 0 ? Shader::Blocks : Shader::MergedBlocks, p,
+      device_.dispatch(level == 0 ? choose(Shader::Blocks, Shader::BlocksDimmed) : Program(Shader::MergedBlocks), p,
                        groups_of(std::uint64_t{p.grid_count} * p.level_side * p.level_side, info_));
     }
     device_.barrier();
@@ -329,7 +330,7 @@ void GridFrame::list_primitives(std::span<const Parameters> runs) {
       p.flags |= is_last ? kLastLevel : 0U;
       p.finer_side = is_last ? 0 : levels.side(level + 1);
       p.finer_at = is_last ? 0 : levels.at(level + 1);
-      device_.dispatch(Shader::Primitives, p,
+      device_.dispatch(choose(Shader::Primitives, Shader::PrimitivesDimmed), p,
                        groups_of(std::uint64_t{p.grid_count} * p.level_side * p.level_side, info_));
     }
   }
@@ -352,8 +353,9 @@ void GridFrame::draw_primitives(std::size_t first, std::size_t end) {
   device_.end_stage("blocks");
   list_primitives(runs);
   const auto method = std::get<TiledOptions>(job_.style).interpolation;
-  draw_listed(Program(Shader::OpenPrimitives, method), {Shader::CutPrimitives, method},
-              {Shader::LargePrimitives, method}, first);
+  draw_listed(Program(Shader::OpenPrimitives, method),
+              choose({Shader::CutPrimitives, method}, {Shader::CutPrimitivesDimmed, method}),
+              choose({Shader::LargePrimitives, method}, {Shader::LargePrimitivesDimmed, method}), first);
 }
 
 void GridFrame::draw_batch(std::size_t first, std::size_t end) {
@@ -364,10 +366,10 @@ void GridFrame::draw_batch(std::size_t first, std::size_t end) {
   trace(first, end);
   device_.barrier();
   device_.end_stage("rays");
-  if (std::holds_alternative<BundleOptions>(job_.style))
-    draw_cells(first, end);
-  else
+  if (is_tiled())
     draw_primitives(first, end);
+  else
+    draw_cells(first, end);
   device_.barrier();
   device_.end_stage("tiles");
 }
@@ -409,7 +411,7 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   device_.need_fetched(kPixelBytes * pixels + sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   lists_ = tile_lists_of(band.frame.width, band.frame.height, kTile);
-  lists_.flags = std::holds_alternative<TiledOptions>(job_.style) ? kListPrimitives : 0U;
+  lists_.flags = is_tiled() ? kListPrimitives : 0U;
   lists_.polygon_capacity = limits_.large_polygons;
   lists_.entry_capacity = static_cast<std::uint32_t>(kept_.tile_entries);
   lists_.list_part = list_part();
@@ -421,10 +423,9 @@ bool GridFrame::draw_band(const Band& band, std::uint64_t batch_rays, Image& ima
   device_.need(Slot::Rays, kRayBytes * most_rays);
   device_.need(Slot::Crossings, kCrossingBytes * most_rays);
   device_.need(Slot::Vertices, kVertexBytes * most_rays);
-  const bool is_tiled = std::holds_alternative<TiledOptions>(job_.style);
-  primitive_capacity_ = static_cast<std::uint32_t>(is_tiled ? 2 * most_rays : most_rays);
+  primitive_capacity_ = static_cast<std::uint32_t>(is_tiled() ? 2 * most_rays : most_rays);
   device_.need(Slot::CutCells, kCutRecordBytes * primitive_capacity_);
-  if (is_tiled) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
+  if (is_tiled()) device_.need(Slot::Blocks, 2 * sizeof(float) * most_rays);
   prepare(band.frame, batch_rays);
 
   device_.begin();

@@ -52,6 +52,7 @@ class GridFrame {
   [[nodiscard]] int rows_a_band() const;
   void prepare(const Frame& band, std::uint64_t batch_rays);
   void upload_stops();
+  [[nodiscard]] bool is_tiled() const { return std::holds_alternative<TiledOptions>(job_.style); }
   // Whether the job has stop patterns, dirt or a picture as the iris.
   [[nodiscard]] bool is_dimmed() const { return job_.patterns || job_.dirt; }
   // The program for such jobs, or for others.
@@ -96,10 +97,10 @@ class GridFrame {
   DeviceWork work_;
 };
 
-// The paths of grids, and the trace of one of them.
+// The paths of grids, and the trace of one of them. through_picture: a picture as the iris blocks its rays.
 void upload_paths(DeviceContext& device, const PathData& data);
 void dispatch_trace(DeviceContext& device, const DeviceInfo& info, const DeviceGrid& grid, const PathPlace& place,
-                    const Parameters& parameters);
+                    const Parameters& parameters, bool through_picture = false);
 [[nodiscard]] std::uint64_t ray_count(const DeviceGrid& grid);
 // The largest value of a table at angles of incidence up to 75 degrees.
 [[nodiscard]] double largest_reflectance(const float* table);

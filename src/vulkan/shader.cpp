@@ -23,25 +23,31 @@ namespace {
 #include "vulkan/bin.inc"
 #include "vulkan/bin_wide.inc"
 #include "vulkan/blocks.inc"
+#include "vulkan/blocks_dimmed.inc"
 #include "vulkan/cells.inc"
 #include "vulkan/cells_dimmed.inc"
 #include "vulkan/cut_cells.inc"
 #include "vulkan/cut_cells_dimmed.inc"
 #include "vulkan/cut_primitives.inc"
+#include "vulkan/cut_primitives_dimmed.inc"
 #include "vulkan/large_cells.inc"
 #include "vulkan/large_cells_dimmed.inc"
 #include "vulkan/large_primitives.inc"
+#include "vulkan/large_primitives_dimmed.inc"
 #include "vulkan/list_sizes.inc"
 #include "vulkan/merged_blocks.inc"
 #include "vulkan/open_primitives.inc"
 #include "vulkan/place_lists.inc"
 #include "vulkan/primitives.inc"
+#include "vulkan/primitives_dimmed.inc"
 #include "vulkan/resolve.inc"
 #include "vulkan/rgba.inc"
 #include "vulkan/starburst_far.inc"
 #include "vulkan/starburst_near.inc"
 #include "vulkan/trace.inc"
 #include "vulkan/trace_double.inc"
+#include "vulkan/trace_picture.inc"
+#include "vulkan/trace_picture_double.inc"
 #include "vulkan/vertices.inc"
 #include "vulkan/widen.inc"
 
@@ -89,6 +95,12 @@ std::span<const std::uint32_t> code_of(Shader shader) {
     case Shader::CellsDimmed: return kCellsDimmedCode;
     case Shader::CutCellsDimmed: return kCutCellsDimmedCode;
     case Shader::LargeCellsDimmed: return kLargeCellsDimmedCode;
+    case Shader::BlocksDimmed: return kBlocksDimmedCode;
+    case Shader::PrimitivesDimmed: return kPrimitivesDimmedCode;
+    case Shader::CutPrimitivesDimmed: return kCutPrimitivesDimmedCode;
+    case Shader::LargePrimitivesDimmed: return kLargePrimitivesDimmedCode;
+    case Shader::TracePictureFloat: return kTracePictureCode;
+    case Shader::TracePictureDouble: return kTracePictureDoubleCode;
   }
   return {};
 }

@@ -54,8 +54,15 @@ enum class Shader : std::uint8_t {
   CellsDimmed,
   CutCellsDimmed,
   LargeCellsDimmed,
+  BlocksDimmed,
+  PrimitivesDimmed,
+  CutPrimitivesDimmed,
+  LargePrimitivesDimmed,
+  // As TraceFloat and TraceDouble, for a picture as the iris.
+  TracePictureFloat,
+  TracePictureDouble,
 };
-inline constexpr std::size_t kShaders = 40;
+inline constexpr std::size_t kShaders = 46;
 
 // A shader, and what it must handle, so that drivers leave out the code of all else: for those that trace rays the
 // surfaces, for those of `adaptive` whether the iris is a picture, for those of `tiled` the interpolation.
@@ -70,12 +77,12 @@ struct Program {
   bool interpolates = false;
   bool has_picture = false;
 };
-inline constexpr std::size_t kPrograms = 6 * kShaders;
+inline constexpr std::size_t kVariants = 10;  // of a shader
+inline constexpr std::size_t kPrograms = kVariants * kShaders;
 [[nodiscard]] inline std::size_t number_of(Program program) {
-  const std::size_t variant = program.interpolates
-                                  ? static_cast<std::size_t>(program.interpolation)
-                                  : 2 * static_cast<std::size_t>(program.geometry) + (program.has_picture ? 1 : 0);
-  return 6 * static_cast<std::size_t>(program.shader) + variant;
+  const auto kind = program.interpolates ? static_cast<std::size_t>(program.interpolation)
+                                         : static_cast<std::size_t>(program.geometry);
+  return kVariants * static_cast<std::size_t>(program.shader) + 2 * kind + (program.has_picture ? 1 : 0);
 }
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);

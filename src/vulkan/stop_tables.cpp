@@ -31,8 +31,8 @@ std::vector<std::uint32_t> pattern_words(const DevicePatterns& all) {
   std::vector<std::uint32_t> words;
   words.reserve(size);
   for (const DevicePattern& p : all.patterns) {
-    const PatternRecord record{table_at[p.table], p.side,      p.side == 0 ? 0 : levels_of(p.side),
-                               p.outer_radius,    p.scale,     p.level_from,
+    const PatternRecord record{table_at[p.table], p.side,       p.side == 0 ? 0 : levels_of(p.side),
+                               p.outer_radius,    p.scale,      p.level_from,
                                p.roughness,       p.difference, p.uniform_from};
     const auto numbers = std::bit_cast<std::array<std::uint32_t, kRecordWords>>(record);
     words.insert(words.end(), numbers.begin(), numbers.end());
@@ -56,8 +56,7 @@ std::uint64_t StopTables::upload(DeviceContext& device, const DeviceInfo& info,
   };
   if (patterns && patterns != patterns_) {
     patterns_ = nullptr;  // until all is there
-    send(Slot::Patterns, pattern_words(*patterns),
-         "the stop patterns of a frame do not fit into the device's buffers");
+    send(Slot::Patterns, pattern_words(*patterns), "the stop patterns of a frame do not fit into the device's buffers");
     patterns_ = patterns;
   }
   if (dirt && dirt != dirt_) {

@@ -52,7 +52,7 @@ FoundGrids find_grids(const Item& item, const Frame& frame, const GridSource& so
 
 std::string device_lacks(const GridSource& source, const FramePlan& plan) {
   const BundleOptions& options = source.options;
-  if (std::string lacks = stop_lacks(source.stops, plan, source.lens, true); !lacks.empty()) return lacks;
+  if (std::string lacks = stop_lacks(source.stops, plan); !lacks.empty()) return lacks;
   if (options.mirror_symmetry) return "mirrored grids are";
   if (options.precomputed_bounds) return "precomputed pupils are";
   if (options.spectral_filter) return "the spectral filter is";

@@ -84,19 +84,14 @@ Result<DrawnFlare> DeviceFrame::draw(FrameDevice& device, const Iris& iris, cons
       device, {plan_, frame_, cache_, std::move(statistics), ms_since(start_)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const KeptDevice& kept = *cache_.section<KeptDevice>({});
-        return device.draw(
-            GridJob{frame_, shape, by_layer_[layer], style, kept.starbursts, kept.use, patterns, dirt}, image, drawing);
+        return device.draw(GridJob{frame_, shape, by_layer_[layer], style, kept.starbursts, kept.use, patterns, dirt},
+                           image, drawing);
       },
       context);
 }
 
-std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens,
-                       bool draws_patterns) {
-  if (lens.iris.field && !draws_patterns) return "a picture as the iris is";
-  if (stops.on() && !draws_patterns) return "ringing is";
-  if (plan.dirt && !draws_patterns) return "dirt is";
-  if (plan.dirt && stops.has_fringed_dirt()) return "dirt with ringing is";
-  return {};
+std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan) {
+  return plan.dirt && stops.has_fringed_dirt() ? "dirt with ringing is" : "";
 }
 
 }  // namespace contrejour::inline internal

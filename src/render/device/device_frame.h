@@ -73,8 +73,7 @@ class DeviceFrame {
   std::map<const StopPattern*, std::uint32_t> number_of_;
 };
 
-// Names what devices cannot do at the stop yet, in words for a report: "ringing is"; empty: nothing.
-[[nodiscard]] std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens,
-                                     bool draws_patterns);
+// Names what devices cannot do at the stop yet, in words for a report: "dirt with ringing is"; empty: nothing.
+[[nodiscard]] std::string stop_lacks(const StopTransmittances& stops, const FramePlan& plan);
 
 }  // namespace contrejour::inline internal

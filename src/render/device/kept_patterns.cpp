@@ -90,9 +90,8 @@ void add_half_tones(const IrisShape& iris, DevicePatterns& to) {
   const double pitch = 2.0 / static_cast<double>(side);
   for (std::size_t row = 0; row < side; ++row)
     for (std::size_t column = 0; column < side; ++column)
-      samples[row * padded + column] =
-          static_cast<float>(field.transmittance({(static_cast<double>(column) + 0.5) * pitch - 1.0,
-                                                  (static_cast<double>(row) + 0.5) * pitch - 1.0}));
+      samples[row * padded + column] = static_cast<float>(field.transmittance(
+          {(static_cast<double>(column) + 0.5) * pitch - 1.0, (static_cast<double>(row) + 0.5) * pitch - 1.0}));
   const Vec2 right = iris.picture_from_stop({1.0, 0.0});
   std::vector<float> table{static_cast<float>(right.x), static_cast<float>(right.y)};
   const std::vector<float> pyramid = pyramid_table(std::move(samples), padded);

@@ -34,7 +34,7 @@ std::vector<DevicePass> passes_of(const FramePlan& plan) {
 }
 
 struct FoundGrid {
-  std::optional<DeviceGrid> grid;
+  std::optional<PatternedGrid> grid;
   std::uint64_t rays = 0, surface_hits = 0;
 };
 
@@ -51,13 +51,14 @@ struct SearchInput {
 FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
   const LightSource& light = item.light->source;
   const StopTransmittance stop = from.stops.of(item.ghost, item.pass.lambda_nm, light);
-  const OpticalPath path = ghost_path(from.lens, item.ghost, item.pass.lambda_nm);
+  const OpticalPath path = stop.widened(ghost_path(from.lens, item.ghost, item.pass.lambda_nm));
   const ReflectanceTables& tables = from.plan.tables.at(item.pass.lambda_nm);
-  const IrisShape iris(from.lens.iris);
+  const Iris traced_iris = stop.traced_iris(from.lens.iris);
+  const IrisShape iris(traced_iris);
   const EntranceWindow window = entrance_window(from.lens, light);
   const pupils::PupilEffort effort = pupils::effort_for_grid(from.options.grid.rays);
   const pupils::Pupil pupil = from.plan.kept_pupils->find_window_pupil(
-      {item.ghost, light, item.pass.lambda_nm, path.stop_radius_mm, from.lens.iris, effort, &from.context}, [&] {
+      {item.ghost, light, item.pass.lambda_nm, path.stop_radius_mm, traced_iris, effort, &from.context}, [&] {
         return find_pupil(pupils::PupilRays(path, tables, light, iris, window),
                           {.effort = effort, .context = &from.context});
       });
@@ -70,14 +71,15 @@ FoundGrid find_grid(const DevicePass& item, const SearchInput& from) {
   PacketPath packets(path, tables, {{0.0, 0.0, window.z_mm}, light});
   packets.start_from(box.low);
   const Rgb gain = item.adjustment->tinted(item.pass.gain);
-  found.grid =
-      DeviceGrid{.path = std::move(packets),
-                 .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
-                 .side = side,
-                 .precision = precision_for(path, tables, light, window.z_mm, box, side, from.pixel_pitch_mm),
-                 .irradiance = light.shared_flux() * stop.level(),
-                 .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
-                 .shift_mm = item.adjustment->shift_mm};
+  DeviceGrid made{.path = std::move(packets),
+                  .step_mm = (box.high - box.low) * (1.0 / (side - 1)),
+                  .side = side,
+                  .precision = precision_for(path, tables, light, window.z_mm, box, side, from.pixel_pitch_mm),
+                  .irradiance = light.shared_flux() * stop.level(),
+                  .gain = {static_cast<float>(gain[0]), static_cast<float>(gain[1]), static_cast<float>(gain[2])},
+                  .shift_mm = item.adjustment->shift_mm};
+  if (stop.has_front()) made.front_gap_mm = stop.dirt->site().front_z_mm - window.z_mm;
+  found.grid = PatternedGrid{std::move(made), stop.pattern};
   return found;
 }
 
@@ -88,9 +90,7 @@ int side_of_grid(const GridOptions& grid, const LensState& lens, const Rectangle
   return grid_side(grid, lens, sensor_mm, min_count);
 }
 
-std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens) {
-  return stop_lacks(stops, plan, lens, false);
-}
+std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan) { return stop_lacks(stops, plan); }
 
 Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options, const StopTransmittances& stops,
                                   const PlannedFrame& planned, const FramePlan& plan, const Context& context) {
@@ -104,7 +104,7 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options,
       [&](std::size_t k, FoundGrid& found) {
         statistics.rays += found.rays;
         statistics.surface_hits += found.surface_hits;
-        if (found.grid) frame.add(passes[k].layer, {{std::move(*found.grid), nullptr}});
+        if (found.grid) frame.add(passes[k].layer, {std::move(*found.grid)});
       });
   if (!done) return interrupted();
   return frame.draw(*kept.device, planned.lens.iris, options, std::move(statistics), context);

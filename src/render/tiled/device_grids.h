@@ -15,7 +15,7 @@ namespace contrejour::inline internal::tiled {
 [[nodiscard]] int side_of_grid(const GridOptions& grid, const LensState& lens, const Rectangle& sensor_mm);
 
 // Names what keeps a device from drawing a frame, in words for a report; empty: it can draw the frame.
-[[nodiscard]] std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan, const LensState& lens);
+[[nodiscard]] std::string device_lacks(const StopTransmittances& stops, const FramePlan& plan);
 
 // Errors: those of the device; Cancelled.
 [[nodiscard]] Result<DrawnFlare> draw_on_device(KeptDevice& kept, const TiledOptions& options,

@@ -234,7 +234,7 @@ Result<DrawnFlare> render_tiled(const PlannedFrame& planned, const TiledOptions&
   StopTransmittances stops(lens, planned.settings, plan.dirt, planned.cache);
   if (!stops.prepare(plan, context)) return interrupted();
   KeptDevice& kept = *planned.cache.section<KeptDevice>({});
-  if (kept.may_draw(tiled::device_lacks(stops, plan, lens))) {
+  if (kept.may_draw(tiled::device_lacks(stops, plan))) {
     auto drawn = tiled::draw_on_device(kept, options, stops, planned, plan, context);
     if (!kept.falls_back(drawn)) return drawn;
   }

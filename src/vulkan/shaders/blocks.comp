@@ -12,10 +12,35 @@ layout(local_size_x = 64) in;
 #define BLOCK_PARTED -2.0
 
 uint own_grid;
+#ifdef DIMMED
+#include "iris.glsl"
+#include "coverage.glsl"
+#include "grid_stop.glsl"
+
+// Whether a picture as the iris may let some light of a cell pass: RayGrid::slack().
+bool is_lit(uvec4 v) {
+  float slack = 0.0, least = FAILED;
+  for (uint c = 0u; c < p.crossing_count; ++c)
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) slack = max(slack, 0.5 * length(crossing(v[i], c) - crossing(v[j], c)));
+  for (int i = 0; i < 4; ++i) {
+    float most = ray_of(v[i]).w - 1.0;
+    for (uint c = 0u; c < p.crossing_count; ++c) most = max(most, distance_from_picture(crossing(v[i], c)));
+    least = min(least, most);
+  }
+  return least <= slack;
+}
+#endif
 
 float cell_value(uint ix, uint iy) {
   uvec4 v = corners_of(1u, ix, iy);
   bool lit = passes(v.x) || passes(v.y) || passes(v.z) || passes(v.w);
+#ifdef DIMMED
+  if (HAS_PICTURE) {
+    set_grid(p.first_grid + own_grid);
+    if (grid_pattern == 0u) lit = is_lit(v);
+  }
+#endif
   if (!lit) return BLOCK_DARK;
   if (any_failed(v) || !is_convex(v)) return BLOCK_PARTED;
   return 1.0 / 3.0 * (2.0 * (ray_of(v.x).z + ray_of(v.z).z) + ray_of(v.y).z + ray_of(v.w).z);

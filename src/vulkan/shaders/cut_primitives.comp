@@ -6,8 +6,16 @@ layout(local_size_x = 64) in;
 #include "bindings.glsl"
 #include "light.glsl"
 #include "iris.glsl"
+#ifdef DIMMED
+uint own_grid = 0u;
+#endif
 #include "primitive_record.glsl"
 #include "primitive.glsl"
+#ifdef DIMMED
+#include "coverage.glsl"
+#include "grid_stop.glsl"
+#include "primitive_stop.glsl"
+#endif
 #include "primitive_light.glsl"
 
 shared uint primitive_count;
@@ -25,7 +33,13 @@ void draw(Primitive q, uint crossing_count) {
   for (int i = 0; i < 4; ++i) corners[i] = ray_of(q.v[i]).xy;
   for (ivec2 at = box.xy; at.y <= box.w; step_in(box, at)) {
     vec4 w = weights_in(corners, q.is_triangle, at);
+#ifdef DIMMED
+    float light = dot(w, q.irradiance);
+    if (light == 0.0 || is_blocked_at(edges, w, crossing_count)) continue;
+    add_light(at, light * behind_stop(corners, q.v, w, crossing_count));
+#else
     if (!is_blocked(edges, w)) add_light(at, dot(w, q.irradiance));
+#endif
   }
 }
 
@@ -37,6 +51,9 @@ uint emit(uvec4 record) {
   if (failed(ray_of(t.x)) || failed(ray_of(t.y)) || failed(ray_of(t.z))) return 0u;
   Primitive quad, triangle;
   bool is_quad = kind_of(record) == IS_QUAD;
+#ifdef DIMMED
+  set_grid(record.w);
+#endif
   bool has_quad = make_quad(v, flux, quad), has_triangle = make_triangle(t, flux, triangle);
   if (is_quad ? has_quad : has_triangle)
     draw(Primitive(is_quad ? quad.v : triangle.v, is_quad ? quad.irradiance : triangle.irradiance, !is_quad),

@@ -7,6 +7,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "tile.glsl"
 #include "iris.glsl"
 #include "primitive.glsl"
+#ifdef DIMMED
+#include "coverage.glsl"
+#include "grid_stop.glsl"
+#include "primitive_stop.glsl"
+#define LISTED_GRID_SHIFT 4u
+#endif
 
 void main() {
   Task task;
@@ -21,11 +27,25 @@ void main() {
     vec2 corners[4];
     for (int i = 0; i < 4; ++i) corners[i] = ray_of(v[i]).xy;
     vec4 w = weights_in(corners, (words.x & 1u) != 0u, pixel);
+#ifdef DIMMED
+    uint crossing_count = words.x >> 2u & 3u;
+    Edges edges = edges_of(v, crossing_count);
+    edges.bounds = uint[MAX_CROSSINGS](words.y, words.z, words.w);
+    float light = dot(w, irradiance);
+    if (light == 0.0) continue;
+    if ((words.x & 2u) == 0u) {
+      set_grid(words.x >> LISTED_GRID_SHIFT);
+      if (is_blocked_at(edges, w, crossing_count)) continue;
+      light *= behind_stop(corners, v, w, crossing_count);
+    }
+    add_to_pixel(light);
+#else
     Edges edges = edges_of(v, words.x >> 2u);
     edges.bounds = uint[MAX_CROSSINGS](words.y, words.z, words.w);
     if ((words.x & 2u) == 0u && is_blocked(edges, w)) continue;
     float flux = dot(w, irradiance);
     if (flux != 0.0) add_to_pixel(flux);
+#endif
   }
   check_end(k, task.end);
   end_tile(pixel);

@@ -54,5 +54,8 @@ void list_large(Primitive q, ivec4 box, uint crossing_count, uint bounds[MAX_CRO
     large[word + 12u + k] = uint(box[k]);
   }
   large[word + 8u] = (q.is_triangle ? 1u : 0u) | (is_open ? 2u : 0u) | (crossing_count << 2u);
+#ifdef DIMMED
+  large[word + 8u] |= present_grid << LISTED_GRID_SHIFT;
+#endif
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) large[word + 9u + c] = bounds[c];
 }

@@ -7,11 +7,21 @@
 layout(local_size_x = 64) in;
 #include "bindings.glsl"
 #include "quad.glsl"
-#include "primitive_record.glsl"
-
 #define BLOCK_PARTED -2.0
 
 uint own_grid;
+#include "primitive_record.glsl"
+#ifdef DIMMED
+#include "iris.glsl"
+#include "coverage.glsl"
+#include "grid_stop.glsl"
+
+// Whether nothing but rims and a sharp iris can dim the light of the invocation's grid.
+bool is_undimmed() {
+  set_grid(p.first_grid + own_grid);
+  return grid_pattern == 0u && !HAS_PICTURE && (p.flags & (FLAG_DIRT_IN_STOP | FLAG_DIRT_ON_FRONT)) == 0u;
+}
+#endif
 
 // Whether the block is a part of a whole block of the next level, whose side is finer_side and place finer_at here.
 bool is_merged(uint ix, uint iy) {
@@ -34,6 +44,9 @@ void list(uint ix, uint iy) {
   }
   if (value < 0.0 || is_merged(ix, iy)) return;
   bool is_open = passes(v.x) && passes(v.y) && passes(v.z) && passes(v.w);
+#ifdef DIMMED
+  is_open = is_open && is_undimmed();
+#endif
   uint at = atomicAdd(counters[is_open ? COUNT_OPEN : COUNT_CUT], 1u);
   primitives[is_open ? open_place(at) : at] = record_of(v.x, IS_QUAD, value);
 }

@@ -28,11 +28,25 @@ real start_real(int k) { return path_number(uint(k)); }
 #define LIKE_CPU
 #include "trace.glsl"
 
+#ifdef DIMMED
+#include "coverage.glsl"
+#include "stop/tables.glsl"
+#include "stop/pattern.glsl"
+#include "stop/occluders.glsl"
+#include "stop/squares.glsl"
+// Whether the iris blocks: a picture, or the circle through which grids with a stop pattern are traced.
+bool is_blocked_by_iris(vec2 at) {
+  return ((p.flags & FLAG_CIRCLE) != 0u ? length(at) - 1.0 : distance_from_picture(at)) > 0.0;
+}
+#else
+bool is_blocked_by_iris(vec2 at) { return iris_distance(at) > 0.0; }
+#endif
+
 // Writes where the ray crosses the stop. Returns the bit of a crossing at which the iris blocks it.
 uint keep_crossing(uint ray, uint c, vec2 at) {
   if (c >= p.crossing_count) return 0u;
   crossings[ray * MAX_CROSSINGS + c] = at;
-  return iris_distance(at) <= 0.0 ? 0u : BLOCKED_BY_IRIS << c;
+  return is_blocked_by_iris(at) ? BLOCKED_BY_IRIS << c : 0u;
 }
 
 void main() {
