@@ -55,11 +55,11 @@ struct DevicePatterns {
   std::vector<std::shared_ptr<const void>> owners;  // of what the patterns were made from
   std::vector<DevicePattern> patterns;
   std::vector<std::vector<float>> tables;
-  // The number of a picture as the iris, or kNone: the pattern with this number is an image pyramid of its
-  // opening, and the next one has signed distances from its outline as samples, in stop radii. If it has half-tones, an
-  // image pyramid of these follows, and they dim the light of all patterns of edges; a scale of 0 is a sharp outline.
-  // The table of half-tones begins with the picture's x of the stop's x axis, and its y; the scale is the number of
-  // samples across the stop's diameter.
+  // The number of a picture as the iris, or kNone: the pattern with this number is an image pyramid of its opening, and
+  // the next one has signed distances from its outline as samples, in stop radii. Then follow the distances again, at
+  // the samples of the picture's own field, and its half-tones as an image pyramid, if it has any, which dim the light
+  // of all patterns of edges; a scale of 0 is a sharp outline. The tables of these two begin with the picture's
+  // coordinates of the stop's x axis; the scale of half-tones is their number across the stop's diameter.
   std::uint32_t picture = kNone;
 };
 

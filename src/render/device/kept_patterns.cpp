@@ -79,6 +79,27 @@ Vec2 middle_of_sample(std::size_t k) {
   return {column * kPitch - kPictureExtent, kPictureExtent - row * kPitch};
 }
 
+// A table that begins with the picture's coordinates of the stop's x axis.
+std::vector<float> turned_table(const IrisShape& iris) {
+  const Vec2 right = iris.picture_from_stop({1.0, 0.0});
+  return {static_cast<float>(right.x), static_cast<float>(right.y)};
+}
+
+// Appends the distances of a picture as the iris at the samples of its field, rows from the lowest, of which the first
+// and the last lie half a sample beyond the picture.
+void add_field(const IrisShape& iris, DevicePatterns& to) {
+  const IrisField& field = *iris.picture();
+  const int side = field.samples() + 2;
+  const double scale = 0.5 * field.samples();
+  std::vector<float> table = turned_table(iris);
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      table.push_back(static_cast<float>(field.distance({(column - 0.5) / scale - 1.0, (row - 0.5) / scale - 1.0})));
+  to.patterns.push_back(
+      {.table = static_cast<std::uint32_t>(to.tables.size()), .side = static_cast<std::uint32_t>(side)});
+  to.tables.push_back(std::move(table));
+}
+
 // Appends the half-tones of a picture as the iris, in its own orientation, rows from the lowest. Their number a side is
 // rounded up, so that it can be halved.
 void add_half_tones(const IrisShape& iris, DevicePatterns& to) {
@@ -92,8 +113,7 @@ void add_half_tones(const IrisShape& iris, DevicePatterns& to) {
     for (std::size_t column = 0; column < side; ++column)
       samples[row * padded + column] = static_cast<float>(field.transmittance(
           {(static_cast<double>(column) + 0.5) * pitch - 1.0, (static_cast<double>(row) + 0.5) * pitch - 1.0}));
-  const Vec2 right = iris.picture_from_stop({1.0, 0.0});
-  std::vector<float> table{static_cast<float>(right.x), static_cast<float>(right.y)};
+  std::vector<float> table = turned_table(iris);
   const std::vector<float> pyramid = pyramid_table(std::move(samples), padded);
   table.insert(table.end(), pyramid.begin(), pyramid.end());
   to.patterns.push_back({.table = static_cast<std::uint32_t>(to.tables.size()),
@@ -125,6 +145,7 @@ void add_picture(const IrisShape& iris, DevicePatterns& to) {
     to.tables.push_back(pyramid_table(std::move(*samples), kPictureSide));
     to.patterns.push_back(one);
   }
+  add_field(iris, to);
   if (iris.has_half_tones()) add_half_tones(iris, to);
 }
 

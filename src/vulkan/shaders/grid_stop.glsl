@@ -82,7 +82,7 @@ uint dimming_of(uvec4 v, uint crossing_count, bool any_failed) {
       if (region == REGION_DARK) return DIMMED_TO_NOTHING;
       if (region == REGION_VARYING) dims |= DIMMED_BY_PATTERN;
     } else if (HAS_PICTURE) {
-      int region = any_failed ? REGION_VARYING : region_of_picture(disc);
+      int region = any_failed ? REGION_VARYING : region_in_picture(disc);
       if (region == REGION_DARK) return DIMMED_TO_NOTHING;
       if (region == REGION_VARYING) dims |= CLIPPED_BY_PICTURE;
     }

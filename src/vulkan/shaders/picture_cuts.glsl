@@ -48,5 +48,6 @@ void cut_part(vec3 values, vec2 corner, float size) {
 void clip_by_picture(uint c, vec2 corner, float size) {
   vec2 u = stops_of_triangle[c][1] - stops_of_triangle[c][0], v = stops_of_triangle[c][2] - stops_of_triangle[c][0];
   vec2 at = stops_of_triangle[c][0] + u * corner.x + v * corner.y;
-  cut_part(vec3(picture_distance(at), picture_distance(at + size * u), picture_distance(at + size * v)), corner, size);
+  cut_part(vec3(distance_from_picture(at), distance_from_picture(at + size * u), distance_from_picture(at + size * v)),
+           corner, size);
 }

@@ -8,12 +8,25 @@ float sharp_transmittance(float distance, float width) {
   return clamp(0.5 - distance / width, 0.0, 1.0);
 }
 
-// The distance from a picture's opening, also beyond its samples, where fringes reach.
+// The first word after a table's coordinates of the stop's x axis in the picture, and a point in the picture.
+uint after_axis(uint table) { return table + 2u; }
+vec2 picture_from_stop(uint table, vec2 at) {
+  vec2 axis = vec2(uintBitsToFloat(patterns[table]), uintBitsToFloat(patterns[table + 1u]));
+  return vec2(axis.x * at.x - axis.y * at.y, axis.y * at.x + axis.x * at.y);
+}
+
+// The distance from a picture's opening: IrisField::distance().
 float distance_from_picture(vec2 at) {
-  uint distances = p.picture + 1u;
-  float scale = pattern_scale(distances), last = scale - scale / float(pattern_side(distances));
-  vec2 nearest = clamp(at, vec2(-last), vec2(last));
-  return bilinear(pattern_table(distances), int(pattern_side(distances)), scale, nearest) + length(at - nearest);
+  uint field = p.picture + 2u, table = pattern_table(field), first = after_axis(table);
+  int side = int(pattern_side(field));
+  float scale = 0.5 * float(side - 2);
+  vec2 place = (picture_from_stop(table, at) + 1.0) * scale + 0.5, inside = clamp(place, vec2(0.0), vec2(side - 1));
+  ivec2 low = min(ivec2(inside), ivec2(side - 2));
+  vec2 part = inside - vec2(low);
+  uint below = first + uint(low.y * side + low.x), above = below + uint(side);
+  float from = mix(mix(uintBitsToFloat(patterns[below]), uintBitsToFloat(patterns[below + 1u]), part.x),
+                   mix(uintBitsToFloat(patterns[above]), uintBitsToFloat(patterns[above + 1u]), part.x), part.y);
+  return from + length(place - inside) / scale;
 }
 
 float distance_from_iris(vec2 at) { return HAS_PICTURE ? distance_from_picture(at) : iris_distance(at); }
@@ -35,12 +48,10 @@ float sum_of_tones(uint first, int side, vec2 low, vec2 high) {
 
 float tone_over_square(vec2 at, float width) {
   if (!HAS_PICTURE || (p.flags & FLAG_HALF_TONES) == 0u) return 1.0;
-  uint tones = p.picture + 2u, first = pattern_table(tones);
-  vec2 turn = vec2(uintBitsToFloat(patterns[first]), uintBitsToFloat(patterns[first + 1u]));
-  first += 2u;
+  uint tones = p.picture + 3u, table = pattern_table(tones), first = after_axis(table);
   int side = int(pattern_side(tones));
   float samples = pattern_scale(tones), scale = 0.5 * samples;
-  vec2 middle = (vec2(turn.x * at.x - turn.y * at.y, turn.y * at.x + turn.x * at.y) + 1.0) * scale;
+  vec2 middle = (picture_from_stop(table, at) + 1.0) * scale;
   float half_width = 0.5 * max(width * scale, 1.0);
   vec2 low = clamp(middle - half_width, vec2(0.0), vec2(samples));
   vec2 high = clamp(middle + half_width, vec2(0.0), vec2(samples));
@@ -79,6 +90,13 @@ float pattern_over_square(uint pattern, vec2 at, float width) {
 float iris_over_square(vec2 at, float width) {
   float open = sharp_transmittance(distance_from_iris(at), width);
   return open > 0.0 ? open * tone_over_square(at, width) : 0.0;
+}
+
+// Says whether the picture leaves nothing of a disc, all of it, or a part.
+int region_in_picture(Disc disc) {
+  float distance = distance_from_picture(disc.middle);
+  if (distance > disc.radius) return REGION_DARK;
+  return -distance > disc.radius ? REGION_UNIFORM : REGION_VARYING;
 }
 
 // The region of a disc of the stop.
