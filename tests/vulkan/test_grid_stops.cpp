@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastGrid_db = 60.0, kMostGridFlux = 1e-3;
 
 MethodOptions fine_bundle(int rays = 96) { return BundleOptions{.grid = {.rays = rays}}; }
+MethodOptions fine_tiled(int rays = 64) { return TiledOptions{.grid = {.rays = rays}}; }
 
 FrameSettings stop_settings(const LensState& lens, RingingMode mode = RingingMode::None) {
   FrameSettings settings = settings_of(lens, 96, 54);
@@ -77,6 +78,26 @@ TEST_CASE("bundle draws dirt in the stop and on the front as the CPU does") {
   test::check_no_messages();
 }
 
+TEST_CASE("tiled draws fringes, a picture as the iris and dirt as the CPU does") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  std::vector<Light> lights = kTwoLights;
+  lights.back().distance_mm = 800.0;
+  const LensState blades = lens_of("heliar", 7, 16.0), round = lens_of("heliar", 0, 32.0);
+  check_stop(device, fine_tiled(), blades, stop_settings(blades, RingingMode::Fresnel));
+  check_stop(device, fine_tiled(), round, stop_settings(round, RingingMode::Fresnel), lights);
+  for (const bool half_tones : {false, true}) {
+    const LensState lens = star_lens(half_tones, 8.0);
+    check_stop(device, fine_tiled(), lens, stop_settings(lens));
+    check_stop(device, fine_tiled(), lens, stop_settings(lens, RingingMode::Fresnel));
+  }
+  for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {
+    const LensState lens = dirty_lens(dust_and_scratches(plane), 8.0);
+    check_stop(device, fine_tiled(), lens, stop_settings(lens), lights);
+  }
+  test::check_no_messages();
+}
+
 TEST_CASE("frames of grids with fringes and dirt are the same in bands of rows and in small batches") {
   OnDevice whole, banded({.most_rows = 7}), small({.most_buffer_bytes = 1U << 20U});
   if (!whole.kept.device) return;
@@ -84,19 +105,22 @@ TEST_CASE("frames of grids with fringes and dirt are the same in bands of rows a
   for (const LensState& lens : {fringed, dirty}) {
     FrameSettings settings = stop_settings(lens, lens.dirt.any() ? RingingMode::None : RingingMode::Fresnel);
     settings.selection = SelectBrightest{2};
-    const Flare got = frame_by(fine_bundle(48), lens, kTwoLights, settings, whole.cache);
-    check_agreement(banded, lens, got, frame_by(fine_bundle(48), lens, kTwoLights, settings, banded.cache),
-                    {90.0, 1e-5});
-    check_agreement(small, lens, got, frame_by(fine_bundle(48), lens, kTwoLights, settings, small.cache), {90.0, 1e-5});
+    for (const MethodOptions& method : {fine_bundle(48), fine_tiled(48)}) {
+      const Flare got = frame_by(method, lens, kTwoLights, settings, whole.cache);
+      for (OnDevice* const other : {&banded, &small})
+        check_agreement(*other, lens, got, frame_by(method, lens, kTwoLights, settings, other->cache), {90.0, 1e-5});
+    }
   }
   test::check_no_messages();
 }
 
-TEST_CASE("bundle leaves shapes of dirt with fringes to the CPU") {
+TEST_CASE("grids leave shapes of dirt with fringes to the CPU") {
   OnDevice device;
   if (!device.kept.device) return;
   const LensState lens = dirty_lens(dust_and_scratches(DirtPlane::Stop), 16.0);
-  const Flare flare = frame_by(fine_bundle(32), lens, std::span(kTwoLights).first(1),
-                               stop_settings(lens, RingingMode::Fresnel), device.cache);
-  CHECK(flare.statistics.device.find("dirt with ringing is drawn by the CPU") != std::string::npos);
+  for (const MethodOptions& method : {fine_bundle(32), fine_tiled(32)}) {
+    const Flare flare =
+        frame_by(method, lens, std::span(kTwoLights).first(1), stop_settings(lens, RingingMode::Fresnel), device.cache);
+    CHECK(flare.statistics.device.find("dirt with ringing is drawn by the CPU") != std::string::npos);
+  }
 }
