@@ -46,8 +46,8 @@ struct DevicePattern {
 
 // The patterns of a lens's ghosts, and their tables. The profile of an edge is pairs: the value at a position, and its
 // integral from the dark end less that of a sharp edge. A pattern of the whole iris is an image pyramid, finest level
-// first, rows from the top. A device keeps what it was given last, so that
-// frames with the same object upload nothing of it again.
+// first, rows from the top. A device keeps what it was given last, so that frames with the same object upload nothing
+// of it again.
 struct DevicePatterns {
   static constexpr double kFirstPosition = -6.0, kLastPosition = 32.0, kPositionsAUnit = 128.0;  // of profiles
   static constexpr std::uint32_t kNone = 0xffffffff;

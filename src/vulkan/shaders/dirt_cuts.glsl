@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shadows of dirt in a part of a triangle of rays (picture_cuts.glsl), as polygons that are drawn as negative light:
+// The shadows of dirt in a part of a triangle of rays (picture_cuts.glsl), as polygons drawn as negative light:
 // render/bundle/cell_raster.cpp, draw_shadows(). A large stroke's edge is straight in a part; others have octagons in
 // place of their round ends. Included after grid_stop.glsl and picture_cuts.glsl.
 #define MOST_SHADOWS 8       // of a part that are drawn as polygons; others dim all of the part by their mean
@@ -19,7 +19,9 @@ int shadow_count = 0;
 float unshadowed;  // the factor of strokes that cover the whole part, and of those that are too many
 
 // A signed distance from a stroke's edge, from the point along and across it.
-float stroke_distance(Stroke s, vec2 own) { return length(vec2(max(abs(own.x) - s.half_length, 0.0), own.y)) - s.half_width; }
+float stroke_distance(Stroke s, vec2 own) {
+  return length(vec2(max(abs(own.x) - s.half_length, 0.0), own.y)) - s.half_width;
+}
 
 // The corners of a part in the plane of the dirt, mm.
 vec2[3] part_in_plane(uint k, vec2 corner, float size) {
@@ -37,7 +39,8 @@ float longest_side(vec2 q[3]) {
 int shadow_parts(vec2 pixels[3]) {
   float most = longest_side(pixels) / SHADOW_PART_PX;
   for (uint k = 0u; k < POINTS; ++k)
-    if (has_dirt_at(k, seen_crossings)) most = max(most, longest_side(part_in_plane(k, vec2(0.0), 1.0)) / dirt_cell_mm());
+    if (has_dirt_at(k, seen_crossings))
+      most = max(most, longest_side(part_in_plane(k, vec2(0.0), 1.0)) / dirt_cell_mm());
   return clamp(int(ceil(most)), 1, MOST_PICTURE_PARTS);
 }
 
@@ -60,7 +63,8 @@ void find_shadows_in(uint k, vec2 corner, float size) {
       shadow_planes[shadow_count] = k;
       shadow_opacities[shadow_count++] = s.opacity;
     } else {
-      unshadowed *= 1.0 - s.opacity * covered_fraction(s, middle, 0.70710678 * (q[1] - q[0]), 0.70710678 * (q[2] - q[0]));
+      vec2 x = 0.70710678 * (q[1] - q[0]), y = 0.70710678 * (q[2] - q[0]);  // a parallelogram of the part's area
+      unshadowed *= 1.0 - s.opacity * covered_fraction(s, middle, x, y);
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dims a grid's light at the stop and on the front besides rims and a sharp iris:
+// The factors by which the stop and the front dim a grid's light, besides rims and a sharp iris:
 // render/stop_patterns/stop_transmittance.cpp under the same names. Included after iris.glsl and coverage.glsl.
 #include "stop/tables.glsl"
 #include "stop/pattern.glsl"
@@ -9,7 +9,7 @@ layout(set = 0, binding = 42) uniform usamplerBuffer grid_texels;  // four a gri
 
 #define DISC_OF_CORNERS 1.5  // over the corners' distance from the middle: cells may be curved
 
-// Bits of what dims a cell.
+// Bits: the kinds of things that dim a cell.
 #define DIMMED_BY_PATTERN 1u
 #define DIMMED_BY_DIRT 2u      // a picture of dirt, or dense dirt
 #define CLIPPED_BY_PICTURE 4u  // as the iris, with a sharp outline
@@ -39,7 +39,7 @@ Disc disc_about(vec2 q[4]) {
   return Disc(middle, DISC_OF_CORNERS * radius);
 }
 
-// Where the ray crosses the front, mm: DirtSite::front_point().
+// The point at which the ray crosses the front, mm: DirtSite::front_point().
 vec2 front_point(uint ray, uint grid) {
   uvec4 window = texelFetch(grid_texels, int(4u * grid + 1u)), light = texelFetch(grid_texels, int(4u * grid + 2u));
   float gap = uintBitsToFloat(texelFetch(grid_texels, int(4u * grid + 3u)).x);
@@ -65,7 +65,7 @@ uint dirt_of_cell(uvec4 v, uint crossing_count, bool any_failed) {
   return (p.flags & FLAG_DIRT_BY_SQUARES) != 0u ? DIMMED_BY_DIRT : CUT_BY_DIRT;
 }
 
-// What dims the cell of four rays in order. If a ray has failed, patterns count as varying, and the cell as dirty.
+// The bits of the cell of four rays in order. If a ray has failed, patterns count as varying, and the cell as dirty.
 uint dimming_of(uvec4 v, uint crossing_count, bool any_failed) {
   uint dims = 0u;
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
@@ -90,7 +90,7 @@ uint dimming_of(uvec4 v, uint crossing_count, bool any_failed) {
   return dims | dirt_of_cell(v, crossing_count, any_failed);
 }
 
-// The triangle whose pixels are looked up: its corners in pixels, where they cross the stop and the front, and its area.
+// The triangle whose pixels are looked up: its corners in pixels, their points in the stop and on the front, its area.
 vec2 seen_pixels[3];
 vec2 seen_points[POINTS][3];  // stop radii, or mm on the front
 float seen_px;
@@ -99,7 +99,8 @@ uint seen_crossings;
 void see_triangle(uvec3 t, uint crossing_count, vec2 origin) {
   for (int k = 0; k < 3; ++k) {
     seen_pixels[k] = ray_of(t[k]).xy - origin;
-    for (uint c = 0u; c < MAX_CROSSINGS; ++c) seen_points[c][k] = c < crossing_count ? stop_point(t[k], c) : vec2(0.0);
+    for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+      seen_points[c][k] = c < crossing_count ? stop_point(t[k], c) : vec2(0.0);
     if (has_dirt_at(POINT_FRONT, crossing_count)) seen_points[POINT_FRONT][k] = point_of_ray(t[k], POINT_FRONT);
   }
   seen_px = abs(0.5 * cross2(seen_pixels[1] - seen_pixels[0], seen_pixels[2] - seen_pixels[0]));
@@ -128,7 +129,7 @@ vec2 place_of(vec2 pixel) {
   return nearest_in_triangle(vec2(cross2(q, v), cross2(u, q)) / determinant);
 }
 
-// What the stop pattern transmits about a place, as the mean over a pixel or, if that is smaller, the triangle.
+// The transmittance of the stop pattern about a place, as the mean over a pixel or, if that is smaller, the triangle.
 float pattern_at(vec2 place) {
   float all = 1.0;
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
@@ -142,7 +143,7 @@ float pattern_at(vec2 place) {
   return all;
 }
 
-// What a picture of dirt, or dense dirt, transmits about a place likewise.
+// The transmittance of a picture of dirt, or of dense dirt, likewise.
 float dirt_at(vec2 place) {
   float all = 1.0, mm = dirt_float(DIRT_MM_A_UNIT);
   for (uint k = 0u; k < POINTS; ++k) {
@@ -154,7 +155,7 @@ float dirt_at(vec2 place) {
   return all;
 }
 
-// What is transmitted about a point in the triangle, in pixels.
+// The transmittance about a point in the triangle, in pixels.
 float transmitted_at(uint dims, vec2 pixel) {
   vec2 place = place_of(pixel);
   float all = 1.0;

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "seen_triangle.glsl"
 #define NEGLIGIBLE_COVERAGE 1e-6
 
-// What is transmitted in a pixel of a listed polygon. words: those of seen_triangle.glsl.
+// The transmittance in a pixel of a listed polygon. words: those of seen_triangle.glsl.
 float transmitted_in(uvec3 words, ivec2 pixel) {
   if (seen_dims(words) == 0u) return 1.0;
   set_grid(words.z);

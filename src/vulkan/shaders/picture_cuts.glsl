@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clips a triangle of rays by the outline of a picture as the iris. The triangle is divided into parts so small that the
-// outline is about straight in each: along it the signed distance, linear between a part's corners, is 0. On the CPU
-// render/bundle/cell_clip.cpp clips by the outline's pieces. Included after polygon.glsl and grid_stop.glsl.
+// Clips a triangle of rays by the outline of a picture as the iris. The triangle is divided into parts so small that
+// the outline is about straight in each: along it the signed distance, linear between a part's corners, is 0. On the
+// CPU render/bundle/cell_clip.cpp clips by the outline's pieces. Included after polygon.glsl and grid_stop.glsl.
 #define STRAIGHT_OUTLINE 0.01  // stop radii of a part's sides
 #define VISIBLE_OUTLINE 0.3    // pixels of them
 #define MOST_PICTURE_PARTS 8   // a side

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stop pattern, a picture as the iris and dirt leave of a primitive's light at a pixel's middle:
+// The part of a primitive's light that the stop pattern, a picture as the iris and dirt leave at a pixel's middle:
 // render/tiled/tile_traversal.cpp, behind_stop(). Included after primitive.glsl and grid_stop.glsl.
 
 float area_of(vec2 q[4]) { return 0.5 * abs(cross2(q[2] - q[0], q[3] - q[1])); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stop pattern transmits as the mean over a square about a point, as the CPU takes it:
+// The transmittance of the stop as the mean over a square about a point, as the CPU takes it:
 // render/stop_patterns/stop_pattern.cpp under the same names. Points in stop radii. Included after occluders.glsl.
 
 // The fraction of a square that is inside a straight edge at a distance from its middle.
@@ -31,8 +31,8 @@ float distance_from_picture(vec2 at) {
 
 float distance_from_iris(vec2 at) { return HAS_PICTURE ? distance_from_picture(at) : iris_distance(at); }
 
-// The half-tone of a picture as the iris; otherwise 1: aperture/half_tones.cpp. The square is upright in the picture, and
-// points beyond it do not count. Of a square of more than MOST_TONES samples a side, levels of the pyramid are summed.
+// The half-tone of a picture as the iris; otherwise 1: aperture/half_tones.cpp. The square is upright in the picture,
+// and points beyond it do not count. Of a square of more than MOST_TONES samples a side, a coarser level is summed.
 #define MOST_TONES 6.0
 
 // The sum of samples over a box in samples of a level, which are constant within each.
@@ -128,7 +128,7 @@ float covered_square(Stroke s, vec2 at, float width) {
 
 #define MOST_SQUARES 8  // a side, of a square that is wider than a cell
 
-// What shapes of dirt and a picture of it transmit, as the mean over a square: DirtField::transmission(). mm.
+// The transmittance of dirt, its shapes and its picture, as the mean over a square: DirtField::transmission(). mm.
 float dirt_over_square(vec2 at, float width) {
   int parts = clamp(int(ceil(width / dirt_cell_mm())), 1, MOST_SQUARES);
   float sum = 0.0, part_width = width / float(parts);

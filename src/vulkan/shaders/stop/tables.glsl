@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dims light at the stop and on the front, besides rims and a sharp iris: the tables that are uploaded for it, and
-// the bits of a dispatch's flags. Included after ../buffers.glsl.
+// The tables of stop patterns and dirt, which dim light besides rims and a sharp iris, and the bits of a dispatch's
+// flags. Included after ../buffers.glsl.
 layout(std430, set = 0, binding = 27) readonly buffer Patterns { uint patterns[]; };  // records, then tables
 layout(std430, set = 0, binding = 29) readonly buffer Dirt { uint dirt[]; };  // dirt.glsl
 
