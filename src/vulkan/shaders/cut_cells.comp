@@ -118,7 +118,7 @@ void draw_part(vec2 p0, vec2 p1, vec2 p2, float flux, vec2 gradient) {
 void clip_part(vec2 corner, float size, uint crossing_count, bool is_cut) {
   begin_part(corner, size);
   bool by_picture = HAS_PICTURE && (dims & CLIPPED_BY_PICTURE) != 0u;
-  if (by_picture) cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0);
+  if (by_picture) clip_by_rims();
   for (uint c = 0u; c < crossing_count && by_picture && corner_count >= 3; ++c) clip_by_picture(c, corner, size);
   if (is_cut && !by_picture)
     clip_triangle(crossing_count);

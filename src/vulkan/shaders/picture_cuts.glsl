@@ -42,7 +42,7 @@ void begin_part(vec2 corner, float size) {
 void cut_part(vec3 values, vec2 corner, float size) {
   vec2 slope = (values.yz - values.x) / size;
   float at_0 = values.x - dot(slope, corner);
-  cut(at_0, at_0 + slope.x, at_0 + slope.y);
+  cut(at_0, at_0 + slope.x, at_0 + slope.y, 0.0);
 }
 
 void clip_by_picture(uint c, vec2 corner, float size) {

@@ -172,9 +172,13 @@ void begin_triangle() {
   corner_count = is_quad ? 4 : 3;
 }
 
+void clip_by_rims() {
+  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0, height_twist);
+}
+
 // Leaves the open part of the triangle of rays.
 void clip_triangle(uint crossing_count) {
-  cut(heights_of_triangle[0] - 1.0, heights_of_triangle[1] - 1.0, heights_of_triangle[2] - 1.0, height_twist);
+  clip_by_rims();
   for (uint c = 0u; c < crossing_count && corner_count >= 3; ++c) clip_by_iris(c);
   end_cuts();
 }
