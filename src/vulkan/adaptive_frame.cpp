@@ -342,7 +342,7 @@ std::int32_t AdaptiveFrame::small_px() const {
 }
 
 std::uint32_t AdaptiveFrame::flags() const {
-  const std::uint32_t bits = job_.iris.is_circle() ? kCircle : 0U;
+  const std::uint32_t bits = (job_.iris.is_circle() ? kCircle : 0U) | (job_.iris.has_half_tones() ? kHalfTones : 0U);
   return bits | dirt_flags(job_.dirt.get());
 }
 

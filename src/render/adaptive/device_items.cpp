@@ -69,12 +69,20 @@ DeviceStart start_of(const LensSteps& steps, const Ghost& any, const PlannedLigh
   return {path.start(), size > 0.0 ? across * (1.0 / size) : Vec2{1.0, 0.0}};
 }
 
+// Half-tones within a sharp outline are those of the picture as the iris, which devices have at all crossings.
+bool is_picture(const std::shared_ptr<const StopPattern>& pattern) {
+  return pattern && pattern->toned() != nullptr && pattern->toned()->edges() == nullptr;
+}
+
 // Adds the stop patterns of a ghost and a light; returns the first one's number, kNone without ringing. A wavelength
 // whose fringes are not visible has those of the next one, slightly wider.
 std::uint32_t add_patterns(const StopTransmittances& stops, const Ghost& ghost, const PlannedLight& light,
                            std::span<const PlannedPass> passes, FrameItems& to) {
   std::vector<std::shared_ptr<const StopPattern>> patterns;
-  for (const PlannedPass& pass : passes) patterns.push_back(stops.pattern_of(ghost, pass.lambda_nm, light.source));
+  for (const PlannedPass& pass : passes) {
+    patterns.push_back(stops.pattern_of(ghost, pass.lambda_nm, light.source));
+    if (is_picture(patterns.back())) patterns.back() = nullptr;
+  }
   const auto any = std::find_if(patterns.rbegin(), patterns.rend(), [](const auto& one) { return one != nullptr; });
   if (any == patterns.rend()) return DevicePatterns::kNone;
   auto next = *any;
@@ -141,13 +149,10 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
 }  // namespace
 
 std::string device_lacks(const PlannedFrame& planned) {
-  const bool rings = planned.settings.ringing.mode != RingingMode::None;
-  if (const auto& field = planned.lens.iris.field) {
-    if (field->has_half_tones()) return "a picture with half-tones as the iris is";
-    if (rings) return "a picture as the iris with ringing is";
-  }
+  const RingingMode rings = planned.settings.ringing.mode;
+  if (planned.lens.iris.field && rings == RingingMode::Fresnel) return "a picture as the iris with Fresnel's fringes is";
   const std::shared_ptr<const DirtField>& dirt = planned.plan.dirt;
-  if (dirt && !dirt->has_picture() && rings) return "dirt with ringing is";
+  if (dirt && !dirt->has_picture() && rings != RingingMode::None) return "dirt with ringing is";
   return {};
 }
 

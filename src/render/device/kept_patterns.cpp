@@ -122,14 +122,16 @@ void add_half_tones(const IrisShape& iris, DevicePatterns& to) {
   to.tables.push_back(std::move(table));
 }
 
-// Appends a picture as the iris. A sample of its opening is the mean over the sample's square.
+// Appends a picture as the iris. A sample of what it transmits is the mean over the sample's square.
 void add_picture(const IrisShape& iris, DevicePatterns& to) {
   to.picture = static_cast<std::uint32_t>(to.patterns.size());
   std::vector<float> distances(kPictureSide * kPictureSide), transmittances(distances.size());
   for (std::size_t k = 0; k < distances.size(); ++k) {
     const double distance = iris.picture_distance(middle_of_sample(k));
     distances[k] = static_cast<float>(distance);
-    transmittances[k] = static_cast<float>(std::clamp(0.5 - distance / kPitch, 0.0, 1.0));
+    const double open = std::clamp(0.5 - distance / kPitch, 0.0, 1.0);
+    const double tone = iris.has_half_tones() ? iris.picture_transmittance(middle_of_sample(k), kPitch) : 1.0;
+    transmittances[k] = static_cast<float>(open * tone);
   }
   double slopes = 0.0;
   for (std::size_t k = kPictureSide; k < distances.size(); ++k) {

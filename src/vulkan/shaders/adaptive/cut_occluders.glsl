@@ -16,9 +16,10 @@ void set_points(uint k, out vec2 at[3]) {
 // Sets the mask of what may dim the triangle.
 void find_occluders() {
   occluders = pattern != 0u ? OCCLUDED_BY_PATTERN : 0u;
+  uint sharp = pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u;
   vec2 across = pixels[1] - pixels[0], down = pixels[2] - pixels[0];
   for (uint k = 0u; k < POINTS; ++k) {
-    bool may_be_dirty = has_dirt_at(k, crossings_of(item)), is_in_picture = HAS_PICTURE && k < crossings_of(item);
+    bool may_be_dirty = has_dirt_at(k, crossings_of(item)), is_in_picture = HAS_PICTURE && k < sharp;
     if (!may_be_dirty && !is_in_picture) continue;
     vec2 at[3];
     set_points(k, at);

@@ -124,7 +124,7 @@ Cell cell_at(uint k, float flux_a_transmission) {
   cell.has_edge = cell.open < 1.0;
   if (pattern != 0u) cell.open *= transmitted_by(v);
 #ifdef OCCLUDERS
-  if (HAS_PICTURE) {
+  if (HAS_PICTURE && pattern == 0u) {
     vec2 a = last_stops[v.x], b = last_stops[v.y], c = last_stops[v.z], d = last_stops[v.w];
     cell.open *= picture_over(0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b));
   }
@@ -261,7 +261,7 @@ float dirt_roughness_px(Cell cell) {
 // The same for a picture as the iris, whose edges are sharp.
 float picture_roughness_px(Cell cell) {
   uint k = gl_LocalInvocationIndex;
-  if (!HAS_PICTURE) return 0.0;
+  if (!HAS_PICTURE || pattern != 0u) return 0.0;
   float stop_area = abs(cross2(last_stops[k + 17u] - last_stops[k], last_stops[k + 16u] - last_stops[k + 1u]));
   float across = sqrt(min(0.5 * stop_area / max(abs(cell.area_px), 1.0), 1.0));
   float sample_width = 2.0 * pattern_scale(p.picture) / float(pattern_side(p.picture));

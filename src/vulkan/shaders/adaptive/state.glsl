@@ -75,13 +75,14 @@ bool is_dirty(uint a, uint b, uint c, uint d, uint crossing_count) {
 }
 
 // Says whether a picture as the iris is dark, uniform or varying over the cell of four rays in order: dark if it is dark
-// at one crossing, else uniform if it is at all of them.
+// at one crossing, else uniform if it is at all of them. A stop pattern has a region of its own.
 int region_of_picture(uint a, uint b, uint c, uint d, uint crossing_count) {
   int all = REGION_UNIFORM;
   if (!HAS_PICTURE) return all;
   vec2 across = 0.5 * (ray_of(b).xy - ray_of(a).xy + ray_of(c).xy - ray_of(d).xy);
   vec2 down = 0.5 * (ray_of(d).xy - ray_of(a).xy + ray_of(c).xy - ray_of(b).xy);
-  for (uint k = 0u; k < crossing_count; ++k) {
+  uint sharp = pattern_of(item) == 0u ? crossing_count : crossing_count - 1u;
+  for (uint k = 0u; k < sharp; ++k) {
     vec2 qa = crossing(a, k), qb = crossing(b, k), qc = crossing(c, k), qd = crossing(d, k);
     float pixel_extent = pixel_extent_of(across, down, 0.5 * (qb - qa + qc - qd), 0.5 * (qd - qa + qc - qb));
     int region = region_of_picture(disc_of(qa, qb, qc, qd, pixel_extent));

@@ -3,6 +3,7 @@
 // pattern at the last crossing of the stop, and a picture as the iris at each crossing. Points of a ray are numbered:
 // where it crosses the stop, in stop radii, then where it crosses the front, in mm. Included after pattern.glsl.
 #include "dirt.glsl"
+#include "tones.glsl"
 
 #define POINT_FRONT 3u
 #define POINTS 4u
@@ -46,7 +47,7 @@ float picture_over(vec2 at, vec2 x, vec2 y) {
     open = part_inside(vec2(dot(normal, x), dot(normal, y)), -distance);
     if (open > 0.0 && open < 1.0) ++partly_covering;
   }
-  return open;
+  return open > 0.0 ? open * tone_over_square(at, sqrt(abs(cross2(x, y)))) : 0.0;
 }
 
 // The factor of what lies at a point, over a parallelogram whose sides are x and y.
@@ -106,5 +107,5 @@ bool is_dirty(Disc disc) {
 int region_of_picture(Disc disc) {
   float distance = picture_distance(disc.middle);
   if (distance > disc.radius) return REGION_DARK;
-  return -distance > disc.radius ? REGION_UNIFORM : REGION_VARYING;
+  return -distance > disc.radius && !has_half_tones() ? REGION_UNIFORM : REGION_VARYING;
 }

@@ -17,6 +17,6 @@ float pattern_uniform_from(uint pattern) { return uintBitsToFloat(pattern_word(p
 
 // The radius within which light crosses the stop.
 float stop_radius(uint pattern, uint c, uint crossing_count) {
-  if (HAS_PICTURE) return PICTURE_RADIUS;
-  return pattern != 0u && c + 1u == crossing_count ? pattern_outer_radius(pattern) : 1.0;
+  float sharp = HAS_PICTURE ? PICTURE_RADIUS : 1.0;
+  return pattern != 0u && c + 1u == crossing_count ? max(pattern_outer_radius(pattern), sharp) : sharp;
 }
