@@ -36,6 +36,11 @@ struct AdaptiveKept {
   std::vector<PathPlace> places;  // by path
 };
 
+// A frame whose rays do not fit into the device's buffers: fewer groups of it may.
+struct TooManyRays : vk::OutOfDeviceMemoryError {
+  TooManyRays() : vk::OutOfDeviceMemoryError("the rays of a frame do not fit into the device's buffers") {}
+};
+
 class AdaptiveFrame {
  public:
   // All must outlive the frame.
@@ -66,7 +71,9 @@ class AdaptiveFrame {
   void fill_tiles();
   [[nodiscard]] std::uint64_t sums_bytes() const;
   [[nodiscard]] std::uint32_t flags() const;
-  [[nodiscard]] std::int32_t small_px() const;  // of AdaptiveParameters
+  // Of AdaptiveParameters.
+  [[nodiscard]] std::int32_t small_px() const;
+  [[nodiscard]] std::uint32_t fewest_cells() const;
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
   [[nodiscard]] bool has_picture() const { return job_.patterns && job_.patterns->picture != DevicePatterns::kNone; }
   [[nodiscard]] bool has_occluders() const { return job_.dirt || has_picture(); }

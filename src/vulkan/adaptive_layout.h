@@ -20,6 +20,7 @@ struct AdaptiveParameters {
   std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
   std::int32_t small_px = 0;
   float merge_error = 0;
+  std::uint32_t fewest_cells = 0;
 };
 
 struct ItemRecord {

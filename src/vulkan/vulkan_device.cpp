@@ -61,13 +61,8 @@ class VulkanDevice final : public FrameDevice {
 
   Result<DeviceWork> draw(const AdaptiveJob& job, Image& image, const Context& context) override {
     adaptive_.most_rows = options_.most_rows;
-    return run(job.items.empty(), image, context, [&](DeviceContext& device) {
-      StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
-      AdaptiveJob used = job;
-      used.use = use_of(job.use, starbursts);
-      AdaptiveFrame frame(device, info_, used, adaptive_, stop_tables_, starbursts);
-      return with(starbursts, used, frame, frame.draw(image, context));
-    });
+    return run(job.items.empty(), image, context,
+               [&](DeviceContext& device) { return draw_groups(device, job, image, context); });
   }
 
   Result<DeviceWork> write(const VulkanTarget& target, const Image* image) override {
@@ -113,6 +108,46 @@ class VulkanDevice final : public FrameDevice {
     work.uploaded_bytes += starbursts.uploaded_bytes();
     work.is_kept = job.use == PictureUse::Kept;
     picture_ = {job.frame.width, job.frame.height, frame.keeps_bands() ? &context_->kept_rows() : nullptr};
+    return work;
+  }
+
+  [[nodiscard]] DeviceWork draw_groups(DeviceContext& device, const AdaptiveJob& job, Image& image,
+                                       const Context& context) {
+    try {
+      StarburstStage starbursts(device, info_, job.starbursts, starbursts_);
+      AdaptiveJob used = job;
+      used.use = use_of(job.use, starbursts);
+      AdaptiveFrame frame(device, info_, used, adaptive_, stop_tables_, starbursts);
+      return with(starbursts, used, frame, frame.draw(image, context));
+    } catch (const TooManyRays&) {
+      if (job.groups.size() < 2) throw;
+    }
+    return draw_halves(device, job, image, context);
+  }
+
+  // Draws the groups of a job in two halves, which are added on the host: each is within the job's error of its own
+  // peak.
+  [[nodiscard]] DeviceWork draw_halves(DeviceContext& device, const AdaptiveJob& job, Image& image,
+                                       const Context& context) {
+    const std::size_t half = job.groups.size() / 2;
+    const std::uint32_t items = job.groups[half].first;
+    AdaptiveJob first = job;
+    first.use = PictureUse::Read;
+    first.groups = job.groups.first(half);
+    first.items = job.items.first(items);
+    DeviceWork work = draw_groups(device, first, image, context);
+    std::vector<DeviceGroup> groups(job.groups.begin() + static_cast<std::ptrdiff_t>(half), job.groups.end());
+    for (DeviceGroup& group : groups) {
+      group.first -= items;
+      group.middle -= items;
+    }
+    AdaptiveJob second = first;
+    second.groups = groups;
+    second.items = job.items.subspan(items);
+    second.starbursts = {};
+    Image rest(image.width, image.height);
+    work.add(draw_groups(device, second, rest, context));
+    for (std::size_t k = 0; k < image.pixels.size(); ++k) image.pixels[k] += rest.pixels[k];
     return work;
   }
 

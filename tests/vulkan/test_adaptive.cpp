@@ -83,6 +83,24 @@ TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and hav
   test::check_no_messages();
 }
 
+TEST_CASE("a frame whose rays do not fit into a buffer is drawn in parts") {
+  OnDevice device({.most_buffer_bytes = 1U << 20U});
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar", 7, 8.0);
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.wavelengths = 3;
+  std::vector<Light> lights;
+  for (int k = 0; k < 9; ++k)
+    lights.push_back({.direction = direction_from_angles(0.03 * (k % 3) - 0.02, 0.03 * (k / 3) - 0.035)});
+  constexpr std::uint64_t kRayBytes = 24;
+  const Flare got = frame_by(AdaptiveOptions{}, lens, lights, settings, device.cache);
+  CHECK(kRayBytes * got.statistics.rays > device.kept.device->info().storage_range_bytes);
+  const Flare exact = frame_by(AdaptiveOptions{5e-4}, lens, lights, settings, device.cpu_cache);
+  test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(AdaptiveOptions{}.error), 0.01});
+  CHECK(frame_by(AdaptiveOptions{}, lens, lights, settings, device.cache).image.pixels == got.image.pixels);
+  test::check_no_messages();
+}
+
 TEST_CASE("a frame whose polygons do not fit into a buffer is drawn in bands, and long lists of tiles in parts") {
   constexpr double kError = 0.0014;
   OnDevice whole, banded({.most_buffer_bytes = 1U << 21U});

@@ -150,7 +150,8 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
 
 std::string device_lacks(const PlannedFrame& planned) {
   const RingingMode rings = planned.settings.ringing.mode;
-  if (planned.lens.iris.field && rings == RingingMode::Fresnel) return "a picture as the iris with Fresnel's fringes is";
+  if (planned.lens.iris.field && rings == RingingMode::Fresnel)
+    return "a picture as the iris with Fresnel's fringes is";
   const std::shared_ptr<const DirtField>& dirt = planned.plan.dirt;
   if (dirt && !dirt->has_picture() && rings != RingingMode::None) return "dirt with ringing is";
   return {};

@@ -8,7 +8,6 @@ layout(local_size_x = 256) in;
 #include "common.glsl"
 #include "merged.glsl"
 
-#define FEWEST_CELLS 16u           // with 8 the fluxes of dim ghosts, which many cells do not better, are off by per cents
 #define MOST_CELLS 1024u
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
@@ -86,7 +85,7 @@ uvec2 cells_for(uint item, float allowed_by_root) {
   float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_CUT_PARTS));
   // Cells smaller than a third of a pixel show nothing more.
   cells = min(cells, min(3.0 * state(item, STATE_EXTENT), float(MOST_CELLS)));
-  cells = max(ceil(cells), float(FEWEST_CELLS));
+  cells = max(ceil(cells), float(p.fewest_cells));
   return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_CUT_PARTS)));
 }
 

@@ -37,6 +37,7 @@ layout(push_constant) uniform Parameters {
   uint picture;         // as the iris: its pattern's number, of which the next one is its distances; 0: none
   int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
   float merge_error;    // of pixels, in peaks, that a plane over several cells may make
+  uint fewest_cells;    // a side of an item
 }
 p;
 
