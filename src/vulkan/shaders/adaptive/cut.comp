@@ -151,7 +151,7 @@ void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
   bool is_small = is_point || is_line;
   float value = is_small ? flux * fraction : flux / area_px;
   vec2 middle = is_quad ? 0.5 * (pixels[1] + pixels[2]) + 0.25 * twist
-                                 : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+                        : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
   if (is_small) middle = vec2(0.0);
   list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
 }
@@ -187,7 +187,7 @@ struct Part {
 };
 Part part;
 
-// What is drawn of the part.
+// A part is drawn whole, or in halves.
 #define WHOLE 0u
 #define FIRST_HALF 1u
 #define SECOND_HALF 2u
@@ -205,9 +205,9 @@ void read_stops(float weights_of[4][12]) {
   }
 }
 
-// Reads a square part of the cell. Corners of the cell are its rays, of which some may fail.
-// Heights and crossings are linear in the part, and bend in truth. They are moved by the mean of that, as is the light, so
-// that edges, which are chords, let as much light pass as the curves do.
+// Reads a square part of the cell. Corners of the cell are its rays, of which some may fail. Heights and
+// crossings are linear in the part, and bend in truth. They are moved by the mean of that, as is the light, so that
+// edges, which are chords, let as much light pass as the curves do.
 void read_part(vec2 low, float size) {
   const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
   float weights_of[4][12];
