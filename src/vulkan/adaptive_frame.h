@@ -71,7 +71,7 @@ class AdaptiveFrame {
   void fill_tiles();
   [[nodiscard]] std::uint64_t sums_bytes() const;
   [[nodiscard]] std::uint32_t flags() const;
-  // Of AdaptiveParameters.
+  // Parameters of dispatches.
   [[nodiscard]] std::int32_t small_px() const;
   [[nodiscard]] std::uint32_t fewest_cells() const;
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
