@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/clock.h"
+#include "render/device/device_frame.h"
 #include "render/device/frame_device.h"
 #include "vulkan/adaptive_frame.h"
 #include "vulkan/device_context.h"
@@ -135,7 +136,8 @@ class VulkanDevice final : public FrameDevice {
     first.use = PictureUse::Read;
     first.groups = job.groups.first(half);
     first.items = job.items.first(items);
-    DeviceWork work = draw_groups(device, first, image, context);
+    DeviceWork work = draw_groups(device, first, image, part_of(context, {0.0, 0.5}));
+    if (context.cancelled()) return work;
     std::vector<DeviceGroup> groups(job.groups.begin() + static_cast<std::ptrdiff_t>(half), job.groups.end());
     for (DeviceGroup& group : groups) {
       group.first -= items;
@@ -146,7 +148,7 @@ class VulkanDevice final : public FrameDevice {
     second.items = job.items.subspan(items);
     second.starbursts = {};
     Image rest(image.width, image.height);
-    work.add(draw_groups(device, second, rest, context));
+    work.add(draw_groups(device, second, rest, part_of(context, {0.5, 1.0})));
     for (std::size_t k = 0; k < image.pixels.size(); ++k) image.pixels[k] += rest.pixels[k];
     return work;
   }

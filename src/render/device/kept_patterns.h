@@ -19,8 +19,8 @@ class KeptPatterns {
   };
   explicit KeptPatterns(const Key& /*key*/) {}
 
-  // One for each of these, in their order; none is null. Those of a picture as the iris
-  // follow. Null if there are none at all.
+  // One for each of these, in their order; none is null. Those of a picture as the iris follow. Null if there are none
+  // at all.
   [[nodiscard]] std::shared_ptr<const DevicePatterns> get(const std::vector<std::shared_ptr<const StopPattern>>& wanted,
                                                           const Iris& iris);
 

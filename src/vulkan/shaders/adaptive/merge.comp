@@ -90,7 +90,7 @@ bool list_block(uvec2 at) {
   uvec4 v = first + uvec4(0u, cells, cells * side + cells, cells * side);
   rays_at_corners = v;
   if (!find_flux(first)) return false;
-  if (outside_frame(v)) return true;
+  if (outside_frame(v)) return false;  // its sides may bend into the frame
   own = at.y * side + at.x;
   set_block(v, cells);
   float unit = 2.0 * triangle_weight;
