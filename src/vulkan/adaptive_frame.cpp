@@ -140,8 +140,8 @@ std::uint64_t AdaptiveFrame::sums_bytes() const {
 void AdaptiveFrame::need_buffers() {
   const std::uint64_t groups = job_.groups.size(), items = job_.items.size();
   const auto pixels = static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  device_.need(Slot::Boxes, kBoxBytes * kMostLevels * groups);
-  device_.need(Slot::Found, kFoundBytes * kMostLevels * groups);
+  device_.need(Slot::Boxes, kBoxBytes * kSearchLevels.size() * groups);
+  device_.need(Slot::Found, kFoundBytes * kSearchLevels.size() * groups);
   device_.need(Slot::States, kStateBytes * items);
   device_.need(Slot::Offsets, sizeof(std::uint32_t) * (items + 1));
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
@@ -168,7 +168,7 @@ void AdaptiveFrame::need_buffers() {
 
 // Clears the buffers that the search counts into.
 void AdaptiveFrame::clear_search() {
-  device_.clear(Slot::Found, 0, kFoundBytes * kMostLevels * job_.groups.size());
+  device_.clear(Slot::Found, 0, kFoundBytes * kSearchLevels.size() * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
   device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }
@@ -188,9 +188,8 @@ void AdaptiveFrame::dispatch_at(std::uint32_t level, Program program, GroupCount
 
 void AdaptiveFrame::search() {
   const std::uint64_t groups = job_.groups.size();
-  for (std::uint32_t level = 0; level < kSearchLevels; ++level) {
-    dispatch_at(level, {Shader::AdaptiveSearch, geometry_},
-                rows_of(groups * (level == 0 ? kFirstSearchBlocks : kSearchBlocks)));
+  for (const auto [level, blocks] : kSearchLevels) {
+    dispatch_at(level, {Shader::AdaptiveSearch, geometry_}, rows_of(groups * blocks));
     device_.barrier();
   }
   device_.end_stage("pupils");
@@ -333,12 +332,8 @@ void AdaptiveFrame::draw_in_bands(Image& image, const Context& context) {
   }
 }
 
-// Stop patterns are dearer than the sums. Processors draw all pixels of a tile one after the other, so that there each
-// polygon is drawn in its own pixels only.
-std::int32_t AdaptiveFrame::small_px() const {
-  if (job_.patterns || job_.dirt) return 64;
-  return info_.kind == "processor" ? kRasterTile * kRasterTile : 12;
-}
+// Stop patterns are dearer than the sums.
+std::int32_t AdaptiveFrame::small_px() const { return job_.patterns || job_.dirt ? 64 : 12; }
 
 std::uint32_t AdaptiveFrame::flags() const {
   const std::uint32_t bits = (job_.iris.is_circle() ? kCircle : 0U) | (job_.iris.has_half_tones() ? kHalfTones : 0U);
@@ -368,7 +363,6 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   AdaptiveParameters& p = parameters_;
   p.item_count = narrow(job_.items.size());
   p.group_count = narrow(job_.groups.size());
-  p.level = kSearchLevels;
   p.flags = flags();
   p.picture = picture_number(job_.patterns.get());
   p.small_px = small_px();

@@ -7,8 +7,12 @@
 
 namespace contrejour::inline internal::vulkan {
 
-inline constexpr std::uint32_t kSearchLevels = 4, kMostLevels = 6;  // LAST_LEVEL + 1, LEVELS
-inline constexpr std::uint32_t kFirstSearchBlocks = 13, kSearchBlocks = 4;  // search_blocks()
+// A level of the search for pupils, and its workgroups a group (search_blocks()), in their order; LEVELS.
+struct SearchLevel {
+  std::uint32_t level, blocks;
+};
+inline constexpr std::array kSearchLevels{SearchLevel{0, 8}, SearchLevel{4, 2}, SearchLevel{5, 2},
+                                          SearchLevel{1, 4}, SearchLevel{2, 1}, SearchLevel{3, 1}};
 
 // The parameters of a dispatch: the shaders' push constants, in their order.
 struct AdaptiveParameters {

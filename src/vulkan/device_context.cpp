@@ -36,6 +36,8 @@ constexpr std::uint32_t kGeometryConstant = 0;  // the number of GEOMETRY in sha
 constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders/stop/tables.glsl
 constexpr std::uint32_t kInterpolationConstant = 2;  // that of INTERPOLATION in shaders/primitive.glsl
 constexpr std::uint32_t kProcessorConstant = 3;  // that of ON_PROCESSOR in shaders/buffers.glsl
+constexpr std::uint32_t kTileGroupConstant = 4;  // the workgroup of shaders/adaptive/raster.comp
+constexpr std::uint32_t kTileGroup = 256, kTileGroupOfProcessor = 32;
 
 }  // namespace
 
@@ -97,13 +99,16 @@ vk::Pipeline DeviceContext::pipeline_of(Program program) {
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device_, vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
-  const std::array<std::uint32_t, 4> values{
+  const bool is_processor = info_.kind == "processor";
+  const std::array<std::uint32_t, 5> values{
       static_cast<std::uint32_t>(program.geometry), program.has_picture ? VK_TRUE : VK_FALSE,
-      static_cast<std::uint32_t>(program.interpolation), info_.kind == "processor" ? VK_TRUE : VK_FALSE};
+      static_cast<std::uint32_t>(program.interpolation), is_processor ? VK_TRUE : VK_FALSE,
+      is_processor ? kTileGroupOfProcessor : kTileGroup};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
                            vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),
                            vk::SpecializationMapEntry(kInterpolationConstant, 2 * kSize, kSize),
-                           vk::SpecializationMapEntry(kProcessorConstant, 3 * kSize, kSize)};
+                           vk::SpecializationMapEntry(kProcessorConstant, 3 * kSize, kSize),
+                           vk::SpecializationMapEntry(kTileGroupConstant, 4 * kSize, kSize)};
   const vk::SpecializationInfo constants(entries.size(), entries.data(), sizeof values, values.data());
   const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &constants);
   pipeline = device_.createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));

@@ -68,6 +68,17 @@ TEST_CASE("edges of ghosts lie where the CPU draws them, whatever bends the map 
   check_near(device, *zoom, {&light, 1}, settings);
 }
 
+TEST_CASE("a ghost that the lens lets through at its last wavelength only is drawn on the device") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const auto zoom = configure_lens(*find_lens("canon-70-200"), {.focal_length_mm = 135.0, .f_number = 8.0});
+  REQUIRE(zoom.has_value());
+  FrameSettings settings = settings_of(*zoom, 160, 90);
+  settings.selection = SelectList{{{10, 20}}};
+  const Light light{.direction = direction_from_angles(0.0533, 0.0225)};
+  check_near(device, *zoom, {&light, 1}, settings);
+}
+
 TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and have few cells [slow]") {
   OnDevice device;
   if (!device.kept.device) return;

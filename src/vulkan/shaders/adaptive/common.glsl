@@ -13,8 +13,8 @@
 
 layout(std430, set = 0, binding = 15) readonly buffer Groups { uint groups[]; };
 // By group and level: the box that is searched, lower corner and size, mm from the window's lower corner; and the bounds
-// of its cells through which light passes, then of those through which it may pass, which count where there are no
-// others: each the largest of (cells - column, cells - row, column + 1, row + 1).
+// of its cells through which light passes, then of those through which it may pass, which count at the first level, and
+// later where there are no others: each the largest of (cells - column, cells - row, column + 1, row + 1).
 layout(std430, set = 0, binding = 16) buffer Boxes { vec4 boxes[]; };
 layout(std430, set = 0, binding = 17) buffer Found { uint found[]; };
 layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by item
@@ -117,18 +117,44 @@ vec3 state_gain(uint item, vec2 at) {
   return gain;
 }
 
-// The box of a level of the search, from the bounds that the level before found.
-uint cells_of_level(uint level) { return COARSE_CELLS * (level == 0u ? 3u : 2u); }
 #define LAST_LEVEL 3u  // of the search: at the wavelengths of all items, whose pupils may lie beside each other
 #define SCANS 4u  // workgroups that scan a group's meridian, at the first level
-uint search_blocks(uint level) { return level == 0u ? 9u + SCANS : 4u; }
+// Further levels follow the first one: they scan the meridian at a group's first and last wavelengths if light passes at
+// no other.
+#define FIRST_ITEM_LEVEL 4u
+#define LAST_ITEM_LEVEL 5u
+#define ITEM_SCANS 2u  // workgroups that scan it
+bool searches_window(uint level) { return level == 0u || level > LAST_LEVEL; }
+uint search_blocks_a_side(uint level) { return searches_window(level) || level == 1u ? 2u : 1u; }
+uint search_blocks(uint level) {
+  if (level > LAST_LEVEL) return ITEM_SCANS;
+  return search_blocks_a_side(level) * search_blocks_a_side(level) + (level == 0u ? SCANS : 0u);
+}
+uint cells_of_level(uint level) { return COARSE_CELLS * search_blocks_a_side(level); }
+
+bool passes_at_level(uint group, uint level) { return found[8u * (group * LEVELS + level) + 2u] > 0u; }
+// The level that found light first.
+uint first_level(uint group) {
+  for (uint level = FIRST_ITEM_LEVEL; level <= LAST_ITEM_LEVEL; ++level)
+    if (!passes_at_level(group, 0u) && passes_at_level(group, level)) return level;
+  return 0u;
+}
+uint item_of_first_level(uint group, uint level) {
+  uint first = group_word(group, 0u);
+  return level == 0u                 ? group_word(group, 2u)
+         : level == FIRST_ITEM_LEVEL ? first
+                                     : first + group_word(group, 1u) - 1u;
+}
+
+// The box of a level of the search after the first ones, from the bounds that the level before found.
 vec4 box_of_level(uint group, uint level) {
-  if (level == 0u) return vec4(0.0, 0.0, item_window(group_word(group, 2u)));
-  uint before = group * LEVELS + level - 1u;
+  uint before = group * LEVELS + (level == 1u ? first_level(group) : level - 1u);
   vec4 box = boxes[before];
-  uint cells = cells_of_level(level - 1u);
-  uint at = 8u * before + (found[8u * before + 2u] > 0u ? 0u : 4u);
-  uvec4 f = uvec4(found[at], found[at + 1u], found[at + 2u], found[at + 3u]);
+  uint cells = cells_of_level(level - 1u), at = 8u * before;
+  uvec4 passes = uvec4(found[at], found[at + 1u], found[at + 2u], found[at + 3u]);
+  uvec4 may_pass = uvec4(found[at + 4u], found[at + 5u], found[at + 6u], found[at + 7u]);
+  // Between the rays of the first level there may be other parts of a pupil than those that rays have found.
+  uvec4 f = level == 1u ? max(passes, may_pass) : passes.z > 0u ? passes : may_pass;
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
   vec2 step_mm = box.zw / float(cells);
   vec2 low = vec2(cells - f.x, cells - f.y);
@@ -141,7 +167,7 @@ vec4 box_of_level(uint group, uint level) {
 // The box in which a group's rays are traced. Later it is in the state of each item: state_box().
 vec4 final_box(uint group) {
   const float margin = 0.04;
-  vec4 box = box_of_level(group, p.level);
+  vec4 box = box_of_level(group, LAST_LEVEL + 1u);
   return vec4(box.xy - margin * box.zw, (1.0 + 2.0 * margin) * box.zw);
 }
 

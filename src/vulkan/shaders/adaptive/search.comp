@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One level of the search for the pupils of all groups: render/pupils/window_search.cpp. A workgroup traces 16 x 16 rays,
-// one an invocation, of a box of 2 or 3 such blocks a side, and bounds the cells through which light may pass.
+// one an invocation, of a box of such blocks, and bounds the cells through which light may pass.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -10,7 +10,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "near_stop.glsl"
 #include "../stop/pattern_record.glsl"
 
-#define SCAN_REACH 0.75    // cells on each side of a hit
+#define SCAN_REACH 0.5       // cells on each side of a hit
+#define ITEM_SCAN_REACH 4.0  // where no grid has been searched
 #define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction
 
 shared float heights[256];  // relative height - 1, FAILED where a ray fails
@@ -99,13 +100,14 @@ void search_block(uint item, vec4 box, uint cells, uint block) {
 }
 
 // Small pupils among failing rays lie where the plane of the light and the axis meets the entrance plane: a line that is
-// searched finely, as meridian_scan.cpp does.
-void scan_meridian(uint item, vec4 box, uint cells, uint part) {
+// searched finely, as meridian_scan.cpp does, by a number of workgroups. reach: of what is reported, cells on each side
+// of a hit.
+void scan_meridian(uint item, vec4 box, uint cells, uint part, uint parts, float reach_cells) {
   uint k = gl_LocalInvocationIndex;
   path_item = item;
   vec2 along = vec2(start_real(START_STEP_X), start_real(START_STEP_Y)), first = vec2(start_real(START_X), start_real(START_Y));
   float reach = length(max(abs(first), abs(first + box.zw)));
-  float step_mm = 2.0 * reach / float(255u * SCANS);
+  float step_mm = 2.0 * reach / float(255u * parts);
   vec2 at = along * (float(255u * part + k) * step_mm - reach) - first;
   vec2 later = along * (float(255u * part + k + 128u) * step_mm - reach) - first;
   bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, box.zw));
@@ -122,19 +124,28 @@ void scan_meridian(uint item, vec4 box, uint cells, uint part) {
     if (distance_to_edge(a, b) > stop_radius(item_pattern(item), c, crossings_of(item)) + 0.5 * length(b - a)) return;
   }
   vec2 cell = at / box.zw * float(cells);
-  report(PASSES, cell - SCAN_REACH, cell + SCAN_REACH, cells);
+  report(PASSES, cell - reach_cells, cell + reach_cells, cells);
+}
+
+// Whether a level has nothing to do, as another one has found light before, or at the same wavelength.
+bool is_needless(uint group, uint item) {
+  if (p.level <= LAST_LEVEL) return false;
+  return item == group_word(group, 2u) || passes_at_level(group, 0u) ||
+         (p.level == LAST_ITEM_LEVEL && passes_at_level(group, FIRST_ITEM_LEVEL));
 }
 
 void main() {
   uint cells = cells_of_level(p.level), blocks = search_blocks(p.level);
   uint group = linear_group() / blocks, block = linear_group() % blocks;
   if (group >= p.group_count) return;
-  uint item = group_word(group, 2u), at_level = group * LEVELS + p.level, k = gl_LocalInvocationIndex;
-  vec4 box = box_of_level(group, p.level);
+  uint item = item_of_first_level(group, searches_window(p.level) ? p.level : first_level(group));
+  if (is_needless(group, item)) return;
+  uint at_level = group * LEVELS + p.level, k = gl_LocalInvocationIndex;
+  vec4 box = searches_window(p.level) ? vec4(0.0, 0.0, item_window(item)) : box_of_level(group, p.level);
   if (block == 0u && k == 0u) boxes[at_level] = box;
   if (!(box.z > 0.0)) return;
-  if (p.level > 0u && p.level < LAST_LEVEL) {
-    vec4 before = boxes[at_level - 1u];
+  if (!searches_window(p.level) && p.level < LAST_LEVEL) {
+    vec4 before = boxes[p.level == 1u ? group * LEVELS + first_level(group) : at_level - 1u];
     if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
       if (block == 0u && k < 4u) found[8u * at_level + k] = cells;
       return;
@@ -142,8 +153,10 @@ void main() {
   }
   if (k < 8u) bounds_found[k] = 0u;
   uint grid_blocks = cells * cells / (COARSE_CELLS * COARSE_CELLS);
-  if (block >= grid_blocks) {
-    scan_meridian(item, box, cells, block - grid_blocks);
+  if (p.level > LAST_LEVEL) {
+    scan_meridian(item, box, cells, block, blocks, ITEM_SCAN_REACH);
+  } else if (block >= grid_blocks) {
+    scan_meridian(item, box, cells, block - grid_blocks, SCANS, SCAN_REACH);
   } else if (p.level < LAST_LEVEL) {
     search_block(item, box, cells, block);
   } else {
