@@ -83,7 +83,10 @@ void PathData::append(const std::vector<double>& numbers, PacketPrecision precis
   if (precision == PacketPrecision::Double) {
     doubles_.insert(doubles_.end(), numbers.begin(), numbers.end());
   } else {
-    std::ranges::transform(numbers, std::back_inserter(floats_), [](double v) { return static_cast<float>(v); });
+    const std::size_t first = floats_.size();
+    floats_.resize(first + numbers.size());
+    std::ranges::transform(numbers, floats_.begin() + static_cast<std::ptrdiff_t>(first),
+                           [](double v) { return static_cast<float>(v); });
   }
 }
 
@@ -130,6 +133,7 @@ std::vector<float> PathData::table_pairs() const {
 PathPlace PathData::append(const PacketPath& path, PacketPrecision precision, std::size_t origin) {
   const std::size_t first = size(precision);
   std::vector<double> numbers;
+  numbers.reserve(kPathReals + kStepReals * path.steps().size());
   const auto extend = [&](const auto& more) { numbers.insert(numbers.end(), more.begin(), more.end()); };
   extend(path_numbers(path));
   for (const PacketStep& step : path.steps()) extend(step_numbers(step));

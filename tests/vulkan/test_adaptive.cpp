@@ -79,6 +79,16 @@ TEST_CASE("a ghost that the lens lets through at its last wavelength only is dra
   check_near(device, *zoom, {&light, 1}, settings);
 }
 
+TEST_CASE("a frame whose only light is a spot smaller than a pixel is drawn on the device") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("muller-fisheye-10", 0, 11.0);
+  FrameSettings settings = settings_of(lens, 160, 90);
+  settings.selection = SelectList{{{1, 3}}};
+  const Light light{.direction = direction_from_angles(0.215, 0.081)};
+  check_near(device, lens, {&light, 1}, settings);
+}
+
 TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and have few cells [slow]") {
   OnDevice device;
   if (!device.kept.device) return;

@@ -69,6 +69,17 @@ float sum_of(float number) {
   return sum;
 }
 
+// The light of all items, as if it fell on one pixel: the peak where all of it is in spots so small that the histogram
+// counts nothing.
+float light_in_one_pixel() {
+  float light = 0.0;
+  for (uint item = gl_LocalInvocationIndex; item < p.item_count; item += 256u) {
+    vec3 gain = abs(item_gain(item));
+    light += state(item, STATE_FLUX) * max(max(gain.x, gain.y), gain.z);
+  }
+  return sum_of(light);
+}
+
 float cube_root(float x) { return x > 0.0 ? pow(x, 1.0 / 3.0) : 0.0; }
 
 // The cells a side for half of the allowed error.
@@ -158,7 +169,8 @@ void main() {
   uint t = gl_LocalInvocationIndex;
   if (t == 0u) faintest = 0u;
   barrier();
-  float peak = max(find_peak(), p.least_peak);
+  float found_peak = find_peak(), whole_light = light_in_one_pixel();
+  float peak = max(found_peak > 0.0 ? found_peak : whole_light, p.least_peak);
   float roots = 0.0;
   for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(squared_error_of(item));
   float all_roots = sum_of(roots);

@@ -117,7 +117,8 @@ vec3 state_gain(uint item, vec2 at) {
   return gain;
 }
 
-#define LAST_LEVEL 3u  // of the search: at the wavelengths of all items, whose pupils may lie beside each other
+#define LAST_LEVEL 3u  // of the search
+#define ALL_ITEMS_LEVEL 2u  // from which on it is at the wavelengths of all items, whose pupils may lie beside each other
 #define SCANS 4u  // workgroups that scan a group's meridian, at the first level
 // Further levels follow the first one: they scan the meridian at a group's first and last wavelengths if light passes at
 // no other.
@@ -159,8 +160,8 @@ vec4 box_of_level(uint group, uint level) {
   vec2 step_mm = box.zw / float(cells);
   vec2 low = vec2(cells - f.x, cells - f.y);
   vec4 narrowed = vec4(box.xy + low * step_mm, (vec2(f.zw) - low) * step_mm);
-  const float margin = 0.1;
-  if (level == LAST_LEVEL) narrowed = vec4(narrowed.xy - margin * narrowed.zw, (1.0 + 2.0 * margin) * narrowed.zw);
+  const float margin = 0.25;
+  if (level == ALL_ITEMS_LEVEL) narrowed = vec4(narrowed.xy - margin * narrowed.zw, (1.0 + 2.0 * margin) * narrowed.zw);
   return narrowed;
 }
 

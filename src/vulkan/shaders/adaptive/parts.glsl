@@ -5,4 +5,4 @@
 #define SPLIT_SUMS BINS  // of `sums`: after the histogram
 
 float frame_peak() { return max(uintBitsToFloat(counters[COUNT_PEAK]), 1e-30); }
-float units_of(float peak) { return exp2(36.0 - ceil(log2(peak))); }  // a pixel value
+float units_of(float peak) { return exp2(min(36.0 - ceil(log2(peak)), 120.0)); }  // a pixel value

@@ -157,7 +157,7 @@ void main() {
     scan_meridian(item, box, cells, block, blocks, ITEM_SCAN_REACH);
   } else if (block >= grid_blocks) {
     scan_meridian(item, box, cells, block - grid_blocks, SCANS, SCAN_REACH);
-  } else if (p.level < LAST_LEVEL) {
+  } else if (p.level < ALL_ITEMS_LEVEL) {
     search_block(item, box, cells, block);
   } else {
     uint first = group_word(group, 0u), end = first + group_word(group, 1u);
