@@ -188,8 +188,9 @@ void AdaptiveFrame::dispatch_at(std::uint32_t level, Program program, GroupCount
 
 void AdaptiveFrame::search() {
   const std::uint64_t groups = job_.groups.size();
-  for (const auto [level, blocks] : kSearchLevels) {
-    dispatch_at(level, {Shader::AdaptiveSearch, geometry_}, rows_of(groups * blocks));
+  for (const std::uint32_t level : kSearchLevels) {
+    dispatch_at(level, {Shader::AdaptiveSearch, geometry_},
+                rows_of(groups * search_blocks(level, parameters_.window_blocks)));
     device_.barrier();
   }
   device_.end_stage("pupils");
@@ -367,6 +368,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.picture = picture_number(job_.patterns.get());
   p.small_px = small_px();
   p.fewest_cells = fewest_cells();
+  p.window_blocks = job_.has_axial_symmetry ? 2 : 6;
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
   p.least_peak = static_cast<float>(job_.least_peak);

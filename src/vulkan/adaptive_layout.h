@@ -7,12 +7,13 @@
 
 namespace contrejour::inline internal::vulkan {
 
-// A level of the search for pupils, and its workgroups a group (search_blocks()), in their order; LEVELS.
-struct SearchLevel {
-  std::uint32_t level, blocks;
-};
-inline constexpr std::array kSearchLevels{SearchLevel{0, 8}, SearchLevel{4, 2}, SearchLevel{5, 2},
-                                          SearchLevel{1, 4}, SearchLevel{2, 1}, SearchLevel{3, 1}};
+// The levels of the search for pupils, in their order, and how many there may be (LEVELS).
+inline constexpr std::array<std::uint32_t, 6> kSearchLevels{0, 4, 5, 1, 2, 3};
+// search_blocks(): the workgroups of a group.
+[[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks) {
+  constexpr std::uint32_t kScans = 4, kItemScans = 2;
+  return level == 0 ? window_blocks * window_blocks + kScans : level > 3 ? kItemScans : level == 1 ? 4 : 1;
+}
 
 // The parameters of a dispatch: the shaders' push constants, in their order.
 struct AdaptiveParameters {
@@ -25,6 +26,7 @@ struct AdaptiveParameters {
   std::int32_t small_px = 0;
   float merge_error = 0;
   std::uint32_t fewest_cells = 0;
+  std::uint32_t window_blocks = 0;
 };
 
 struct ItemRecord {

@@ -89,6 +89,16 @@ TEST_CASE("a frame whose only light is a spot smaller than a pixel is drawn on t
   check_near(device, lens, {&light, 1}, settings);
 }
 
+TEST_CASE("small pupils of a lens without axial symmetry are found on the device [slow]") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("schneider-anamorphic-31", 0, 11.0);
+  FrameSettings settings = settings_of(lens, 80, 45);
+  settings.selection = SelectList{{{1, 4}, {8, 12}, {11, 15}}};
+  const Light light{.direction = direction_from_angles(-0.2, 0.1)};
+  check_near(device, lens, {&light, 1}, settings);
+}
+
 TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and have few cells [slow]") {
   OnDevice device;
   if (!device.kept.device) return;

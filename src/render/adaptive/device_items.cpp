@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "contrejour/expert/trace.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/adaptive/kept_paths.h"
@@ -175,13 +176,15 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
   const auto dirt = planned.cache.section<KeptDeviceDirt>({})->get(plan->dirt);
   const double front_gap_mm =
       dirt && !all.windows.empty() ? plan->dirt->site().front_z_mm - all.windows.front().z_mm : 0.0;
+  const bool symmetric =
+      std::ranges::all_of(plan->ghosts, [&](const Ghost& ghost) { return has_axial_symmetry(planned.lens, ghost); });
   return draw_layers(
       *kept.device, {*plan, frame, planned.cache, std::move(statistics), ms_since(start)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
         return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items,
-                                             groups, error, plan->min_peak, kept.use, kept.starbursts},
+                                             groups, error, plan->min_peak, kept.use, kept.starbursts, symmetric},
                                  image, drawing);
       },
       context);

@@ -146,6 +146,7 @@ struct AdaptiveJob {
   double least_peak = 0.0;  // FramePlan::min_peak
   PictureUse use = PictureUse::Read;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
+  bool has_axial_symmetry = true;  // all ghosts: small pupils lie in the plane of the light and the axis
 };
 
 // The work of a device, and what it took.

@@ -38,6 +38,7 @@ layout(push_constant) uniform Parameters {
   int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
   float merge_error;    // of pixels, in peaks, that a plane over several cells may make
   uint fewest_cells;    // a side of an item
+  uint window_blocks;   // a side, of 16 x 16 rays, in which the first level searches the window for pupils
 }
 p;
 
@@ -126,7 +127,7 @@ vec3 state_gain(uint item, vec2 at) {
 #define LAST_ITEM_LEVEL 5u
 #define ITEM_SCANS 2u  // workgroups that scan it
 bool searches_window(uint level) { return level == 0u || level > LAST_LEVEL; }
-uint search_blocks_a_side(uint level) { return searches_window(level) || level == 1u ? 2u : 1u; }
+uint search_blocks_a_side(uint level) { return searches_window(level) ? p.window_blocks : level == 1u ? 2u : 1u; }
 uint search_blocks(uint level) {
   if (level > LAST_LEVEL) return ITEM_SCANS;
   return search_blocks_a_side(level) * search_blocks_a_side(level) + (level == 0u ? SCANS : 0u);
@@ -147,6 +148,9 @@ uint item_of_first_level(uint group, uint level) {
                                      : first + group_word(group, 1u) - 1u;
 }
 
+// The number of cells within bounds.
+uint extent_of(uvec4 f, uint cells) { return f.z == 0u ? 0u : (f.x + f.z - cells) * (f.y + f.w - cells); }
+
 // The box of a level of the search after the first ones, from the bounds that the level before found.
 vec4 box_of_level(uint group, uint level) {
   uint before = group * LEVELS + (level == 1u ? first_level(group) : level - 1u);
@@ -154,8 +158,11 @@ vec4 box_of_level(uint group, uint level) {
   uint cells = cells_of_level(level - 1u), at = 8u * before;
   uvec4 passes = uvec4(found[at], found[at + 1u], found[at + 2u], found[at + 3u]);
   uvec4 may_pass = uvec4(found[at + 4u], found[at + 5u], found[at + 6u], found[at + 7u]);
-  // Between the rays of the first level there may be other parts of a pupil than those that rays have found.
-  uvec4 f = level == 1u ? max(passes, may_pass) : passes.z > 0u ? passes : may_pass;
+  uvec4 f = passes.z > 0u ? passes : may_pass;
+  // Between the rays of the first level there may be other parts of a pupil than those that rays have found. They count
+  // if the next level resolves what was found in the larger box.
+  uvec4 both = max(passes, may_pass);
+  if (level == 1u && extent_of(both, cells) <= 9u * extent_of(passes, cells)) f = both;
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
   vec2 step_mm = box.zw / float(cells);
   vec2 low = vec2(cells - f.x, cells - f.y);
