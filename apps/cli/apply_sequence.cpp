@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/frame_lens.h"
+#include "cli/frame_renderers.h"
 #include "cli/frame_report.h"
 #include "cli/long_task.h"
 #include "contrejour/expert/frame_record.h"
@@ -135,16 +136,19 @@ Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& valu
       return own && is_frame_done(files_of(*own, values.exposure_text(frame), is_missing(frame)));
     });
   if (sequence_options.list_frames) return print_frames(frames);
-  auto renderer = FrameRenderer::create(*lens, values.at(sequence->frames.front()));
-  if (!renderer) return tl::unexpected(renderer.error());
+  auto renderers =
+      FrameRenderers::create(*lens, values.at(sequence->frames.front()), sequence_options.frames_in_flight);
+  if (!renderers) return tl::unexpected(renderers.error());
   if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   FrameReader reader(options, values, *lens, *sequence);
   FrameReport report(options.json);
   const LongTask task("rendering", options.values.integer("threads"));
   const auto render = [&](int, PlannedPhotograph& planned, const Context& context) -> Result<FlaredPhotograph> {
-    if (auto set = renderer->set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
-    return render_photograph(std::move(planned), renderer->get(), context);
+    return renderers->use([&](FrameRenderer& renderer) -> Result<FlaredPhotograph> {
+      if (auto set = renderer.set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
+      return render_photograph(std::move(planned), renderer.get(), context);
+    });
   };
   const auto write = [&](int frame, FlaredPhotograph& flared) -> Result<void> {
     if (auto ok = write_photograph(flared, without_progress(task.context())); !ok) return ok;
@@ -153,8 +157,8 @@ Result<int> apply_to_sequence(const ApplyOptions& given, const FrameValues& valu
     return write_frame_record(files_of(flared.planned.options, values.exposure_text(frame), is_missing(frame)));
   };
   const auto failures = run_frames(
-      frames, [&](int frame) { return reader.read(frame); }, render, write, {sequence_options.keep_going},
-      task.context());
+      frames, [&](int frame) { return reader.read(frame); }, render, write,
+      run_options(sequence_options, renderers->count()), task.context());
   if (!failures) return tl::unexpected(failures.error());
   return report_failures(*failures, frames.size());
 }

@@ -43,15 +43,21 @@ Result<std::vector<DeviceSpeed>> measure_all(const DeviceOptions& options) {
 
 std::string or_dash(double value, int digits) { return value > 0.0 ? fmt::format("{:.{}f}", value, digits) : "-"; }
 
+std::string in_flight_text(const DeviceSpeed& one) {
+  std::string text;
+  for (const double speed : one.frames_a_second) text += fmt::format("{}{:.0f}", text.empty() ? "" : " / ", speed);
+  return text;
+}
+
 std::string speed_text(const std::vector<DeviceSpeed>& all) {
   TextTable table({"<system", "f/", "lights", "device ms", "frame ms", "RTX 3060 ms", "RTX 3060 / device", "dB", "rays",
-                   "polygons"});
+                   "polygons", "frames/s"});
   for (const DeviceSpeed& one : all)
     table.add({one.system, fmt::format("{:g}", one.f_number), fmt::format("{}", one.lights), or_dash(one.device_ms, 3),
                fmt::format("{:.2f}", one.frame_ms), or_dash(one.paper_ms, 2),
                or_dash(one.device_ms > 0.0 ? one.paper_ms / one.device_ms : 0.0, 1),
                or_dash(one.psnr_db.value_or(0.0), 1), fmt::format("{}", one.last.rays),
-               fmt::format("{}", one.last.primitives)});
+               fmt::format("{}", one.last.primitives), in_flight_text(one)});
   return table.text();
 }
 
@@ -77,6 +83,7 @@ Json speed_json(const std::vector<DeviceSpeed>& all) {
                     {"device", one.last.device},
                     {"device_ms", one.device_ms},
                     {"frame_ms", one.frame_ms},
+                    {"frames_per_second", one.frames_a_second},
                     {"paper_ms", one.paper_ms},
                     {"psnr_db", one.psnr_db ? Json(*one.psnr_db) : Json()},
                     {"rays", one.last.rays},
@@ -121,6 +128,7 @@ void add_bench_device(CLI::App& bench, Action& action) {
   command->footer(
       "The lights move from frame to frame, and pictures stay in the device's memory. \"device\" is the time by the\n"
       "device's own clock, \"frame\" the elapsed time, and \"RTX 3060\" the time of bodonyi2023's method on that GPU.\n"
+      "\"frames/s\" is for one frame at a time and for two and three in flight, with all that the host does.\n"
       "\"dB\" is the first frame against the CPU's `adaptive` at --error 0.0001.\n"
       "CONTREJOUR_DEVICE chooses the device.\n\n"
       "Examples:\n  contrejour bench device\n  contrejour bench device --systems heliar,canon-135 --frames 1000\n"

@@ -36,6 +36,12 @@ Result<FrameRenderer> FrameRenderer::create(const FrameLens& lens, const params:
   return FrameRenderer(std::move(*renderer));
 }
 
+Result<FrameRenderer> FrameRenderer::another() const {
+  auto renderer = contrejour::another(renderer_);
+  if (!renderer) return tl::unexpected(renderer.error());
+  return FrameRenderer(std::move(*renderer));
+}
+
 Result<void> FrameRenderer::set(const std::shared_ptr<const LensState>& lens, const params::Values& values) {
   auto* const renderer = std::get_if<Renderer>(&renderer_);
   if (renderer == nullptr) return {};

@@ -40,6 +40,8 @@ class FrameRenderer {
   // Takes a frame's lens and method; a measured flare has neither.
   [[nodiscard]] Result<void> set(const std::shared_ptr<const LensState>& lens, const params::Values& values);
   [[nodiscard]] SourceRenderer& get() { return renderer_; }
+  // The same again, for frames that another thread draws at the same time.
+  [[nodiscard]] Result<FrameRenderer> another() const;
 
  private:
   explicit FrameRenderer(SourceRenderer renderer) : renderer_(std::move(renderer)) {}

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/frame_lens.h"
+#include "cli/frame_renderers.h"
 #include "cli/frame_report.h"
 #include "cli/long_task.h"
 #include "contrejour/expert/frame_range.h"
@@ -80,15 +81,17 @@ Result<int> render_sequence(const RenderOptions& given, const FrameValues& value
       return own && is_frame_done(files_of(*own, values.exposure_text(frame)));
     });
   if (sequence.list_frames) return print_frames(*frames);
-  auto renderer = FrameRenderer::create(*lens, values.at(first));
-  if (!renderer) return tl::unexpected(renderer.error());
+  auto renderers = FrameRenderers::create(*lens, values.at(first), sequence.frames_in_flight);
+  if (!renderers) return tl::unexpected(renderers.error());
   if (auto ok = save_preset(options.preset, options.lens, options.values); !ok) return tl::unexpected(ok.error());
 
   FrameReport report(options.json);
   const LongTask task("rendering", options.values.integer("threads"));
   const auto render = [&](int, PlannedFrame& planned, const Context& context) -> Result<RenderedFrame> {
-    if (auto set = renderer->set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
-    return render_frame(std::move(planned), renderer->get(), context);
+    return renderers->use([&](FrameRenderer& renderer) -> Result<RenderedFrame> {
+      if (auto set = renderer.set(planned.lens, planned.options.values); !set) return tl::unexpected(set.error());
+      return render_frame(std::move(planned), renderer.get(), context);
+    });
   };
   const auto write = [&](int frame, RenderedFrame& rendered) -> Result<void> {
     if (auto ok = write_frame(rendered, without_progress(task.context())); !ok) return ok;
@@ -98,7 +101,7 @@ Result<int> render_sequence(const RenderOptions& given, const FrameValues& value
   };
   const auto failures = run_frames(
       *frames, [&](int frame) { return plan_numbered(options, values, *lens, frame); }, render, write,
-      {sequence.keep_going}, task.context());
+      run_options(sequence, renderers->count()), task.context());
   if (!failures) return tl::unexpected(failures.error());
   return report_failures(*failures, frames->size());
 }

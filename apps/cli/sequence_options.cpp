@@ -69,6 +69,10 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceI
       .add_flag("--list-frames", options.list_frames,
                 "print the frames that would be rendered (with --resume: those that are not done), and render none")
       ->group(kSequenceGroup);
+  add_number(command, "--frames-in-flight", options.frames_in_flight, 1, 8,
+             "frames that a device (--device) draws at once, which takes its memory as often; the CPU draws one at a "
+             "time")
+      ->group(kSequenceGroup);
 }
 
 bool is_sequence(const std::string& name) { return is_frame_pattern(name) && !exists(name); }
@@ -141,6 +145,11 @@ FrameFiles frame_files(SettingsRecord settings, const std::string& input, std::s
   for (const std::string& output : outputs)
     if (!output.empty()) files.outputs.emplace_back(output);
   return files;
+}
+
+// One frame more is read, and one is written.
+RunFramesOptions run_options(const SequenceOptions& options, int renderers) {
+  return {options.keep_going, renderers + 2, renderers};
 }
 
 void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame)>& is_done) {

@@ -26,6 +26,7 @@ struct SequenceOptions {
   bool resume = false;
   bool keep_going = false;
   bool list_frames = false;  // print the frames that would be rendered, and render none
+  int frames_in_flight = 2;  // that a device draws at once
 };
 
 // Whether frames are read from files, which may be missing.
@@ -33,7 +34,7 @@ enum class SequenceInput { None, Files };
 
 // Adds --frames and, for files, --missing.
 void add_frame_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
-// The same and --resume, --keep-going and --list-frames, for a sequence that is rendered.
+// The same and --resume, --keep-going, --list-frames and --frames-in-flight, for a sequence that is rendered.
 void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceInput input);
 
 // True for a name with a place for the number of a frame, unless a file has exactly this name.
@@ -68,6 +69,9 @@ struct SettingsRecord {
 // The files of a frame for its record (frame_record.h). input: empty for none; outputs: empty names are left out.
 [[nodiscard]] FrameFiles frame_files(SettingsRecord settings, const std::string& input,
                                      std::span<const std::string> outputs);
+
+// How frames are worked through that so many renderers draw at once.
+[[nodiscard]] RunFramesOptions run_options(const SequenceOptions& options, int renderers);
 
 // Leaves out the frames that are done; says how many.
 void leave_out_done(std::vector<int>& frames, const std::function<bool(int frame)>& is_done);

@@ -3,7 +3,8 @@
 // fluxes, starbursts, diffraction patterns, dirt, scratch memory) and writes into a caller's pixels. render.h renders
 // one frame without it. What is kept never changes a picture: a frame is equal, bit for bit, to that of render().
 // Errors: InvalidArgument, Cancelled; after either the renderer is usable as before. Thread-safety: one thread at a
-// time uses a renderer; two renderers share nothing.
+// time uses a renderer; two renderers share nothing that one of them changes, and another() shares the device, which
+// several threads may use.
 #pragma once
 
 #include <cstddef>
@@ -47,6 +48,11 @@ class CONTREJOUR_API Renderer {
   // of range are refused when a frame is rendered.
   [[nodiscard]] static Result<Renderer> create(MethodOptions method = AdaptiveOptions{}, Device device = Device::Cpu,
                                                const std::string& which = {});
+  // A renderer with the same method, lens and device, for frames that another thread draws at the same time, which have
+  // the same bits. On a device the two share the logical device, its queue and its pipelines, so that the device has
+  // work while either prepares a frame (docs/gpu.md); each has buffers of its own, and keeps data of its own. Errors:
+  // Unsupported, if the device fails. Thread-safety: as of the other functions; afterwards each has its own thread.
+  [[nodiscard]] Result<Renderer> another() const;
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -61,9 +67,12 @@ class CONTREJOUR_API Renderer {
   [[nodiscard]] Result<void> set_device(Device device, const std::string& which = {});
 
   // Uses a Vulkan device of the caller for the frames that follow (expert/vulkan_target.h), until set_device() or
-  // configure_renderer(). If it fails later, a frame is an error. Errors: Unsupported, with the names of all that the
-  // device lacks; the CPU then renders.
+  // configure_renderer(). another() uses the queue from its own thread, one submission at a time. If it fails later, a
+  // frame is an error. Errors: Unsupported, with the names of all that the device lacks; the CPU then renders.
   [[nodiscard]] Result<void> set_vulkan_device(const VulkanHandles& handles);
+
+  // Whether a device draws the frames, as far as it can; false: all are drawn by the CPU.
+  [[nodiscard]] bool has_device() const;
 
   // Why Device::Auto chose the CPU; empty: it did not. What a device cannot draw the CPU draws in any case, which
   // RenderStatistics::device states for each frame.

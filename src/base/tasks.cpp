@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -145,7 +146,46 @@ bool ordered_pipeline_erased(std::size_t count, const Context& context,
   return !context.cancelled();
 }
 
-void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages) {
+namespace {
+
+// Lets a number of threads pass at once. Those that wait for it hold up no thread that has passed.
+class Gate {
+ public:
+  explicit Gate(std::size_t width) : free_(width) {}
+
+  template <class Body>
+  auto pass(Body body) {
+    const Passage within(*this);
+    return body();
+  }
+
+ private:
+  struct Passage {
+    explicit Passage(Gate& through) : gate(through) {
+      std::unique_lock lock(gate.mutex_);
+      gate.left_.wait(lock, [&] { return gate.free_ > 0; });
+      --gate.free_;
+    }
+    ~Passage() {
+      const std::scoped_lock lock(gate.mutex_);
+      ++gate.free_;
+      gate.left_.notify_one();
+    }
+    Passage(const Passage&) = delete;
+    Passage& operator=(const Passage&) = delete;
+
+    Gate& gate;
+  };
+
+  std::mutex mutex_;
+  std::condition_variable left_;
+  std::size_t free_;
+};
+
+}  // namespace
+
+void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages,
+                     std::size_t middle_width) {
   struct Item {
     std::size_t index = 0;
     StageItem data;
@@ -156,7 +196,7 @@ void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<
   char started = 0;
   const auto run = [&](std::size_t stage, Item item) {
     take_over(&started);
-    take_over(&done[stage]);
+    if (stage != 1 || middle_width <= 1) take_over(&done[stage]);
     if (stage > 0) take_over(item.data.get());
     if (stage == 0 || item.data) item.data = stages[stage](item.index, std::move(item.data));
     hand_over(item.data.get());
@@ -170,9 +210,21 @@ void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<
     flow.stop();
     return {};
   });
-  const auto second = tbb::make_filter<Item, Item>(kInOrder, [&](Item item) { return run(1, std::move(item)); });
   const auto third = tbb::make_filter<Item, void>(kInOrder, [&](Item item) { run(2, std::move(item)); });
-  tbb::parallel_pipeline(max_items, first & second & third);
+  if (middle_width <= 1) {
+    const auto second = tbb::make_filter<Item, Item>(kInOrder, [&](Item item) { return run(1, std::move(item)); });
+    tbb::parallel_pipeline(max_items, first & second & third);
+  } else {
+    Gate gate(middle_width);
+    const auto second = tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
+      return item.data ? gate.pass([&] { return run(1, std::move(item)); }) : item;
+    });
+    // Threads that wait are not among those that compute.
+    const std::size_t threads = static_cast<std::size_t>(core_count()) + max_items;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] { tbb::parallel_pipeline(max_items, first & second & third); });
+  }
   for (char& token : done) take_over(&token);
 }
 

@@ -39,7 +39,10 @@ using Stage = std::function<StageItem(std::size_t i, StageItem item)>;
 // Passes items i in [0, count) through three stages. Each stage handles one item at a time, in rising i; different
 // stages handle different items at once, of which at most `max_items` exist. Stages that follow a null item do not see
 // it. A stage may run parallel_for. Cancelling is the stages' matter: return null to end what is left.
-void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages);
+// middle_width: how many items the middle stage handles at once, if more than one. It then gets them in about this
+// order, and may wait, for a device for example: further threads take care of the other stages.
+void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages,
+                     std::size_t middle_width = 1);
 
 template <class Produce, class Consume>
 bool ordered_pipeline(std::size_t count, const Context& context, Produce produce, Consume consume) {

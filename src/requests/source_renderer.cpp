@@ -24,6 +24,19 @@ Result<SourceRenderer> renderer_of(const params::Values& values, const FlareSour
   return SourceRenderer(std::move(*renderer));
 }
 
+Result<SourceRenderer> another(const SourceRenderer& renderer) {
+  const auto* of_lens = std::get_if<Renderer>(&renderer);
+  if (of_lens == nullptr) return SourceRenderer(std::get<MeasuredFlare>(renderer));
+  auto other = of_lens->another();
+  if (!other) return tl::unexpected(other.error());
+  return SourceRenderer(std::move(*other));
+}
+
+bool has_device(const SourceRenderer& renderer) {
+  const auto* of_lens = std::get_if<Renderer>(&renderer);
+  return of_lens != nullptr && of_lens->has_device();
+}
+
 std::string device_note(const SourceRenderer& renderer) {
   const auto* of_lens = std::get_if<Renderer>(&renderer);
   return of_lens != nullptr ? of_lens->device_note() : std::string();

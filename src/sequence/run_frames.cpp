@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "base/tasks.h"
@@ -38,21 +39,49 @@ class Failures {
   std::vector<FrameFailure> list_;
 };
 
-// A frame's context: its progress is a part of the sequence's.
-Context frame_context(const Context& whole, std::size_t i, std::size_t count) {
-  Context context = whole;
-  if (whole.progress)
-    context.progress = [&whole, i, count](double done) {
-      whole.progress((static_cast<double>(i) + done) / static_cast<double>(count));
-    };
-  return context;
-}
+// The progress of the frames that are rendered, several at once: the mean of all frames' own, which never falls.
+class SequenceProgress {
+ public:
+  SequenceProgress(const Context& whole, std::size_t count) : whole_(whole), count_(static_cast<double>(count)) {}
+
+  // A frame's context: its progress is a part of the sequence's.
+  [[nodiscard]] Context of_frame(std::size_t i) {
+    Context context = whole_;
+    if (whole_.progress) context.progress = [this, i](double done) { report(i, done); };
+    return context;
+  }
+
+  // Also of a frame that failed, of which there is no more to come.
+  void end(std::size_t i) {
+    const std::scoped_lock lock(mutex_);
+    rendering_.erase(i);
+    ++ended_;
+  }
+
+ private:
+  void report(std::size_t i, double done) {
+    const std::scoped_lock lock(mutex_);
+    rendering_[i] = done;
+    double sum = static_cast<double>(ended_);
+    for (const auto& [frame, part] : rendering_) sum += part;
+    reported_ = std::max(reported_, sum / count_);
+    whole_.progress(reported_);
+  }
+
+  const Context& whole_;
+  double count_;
+  std::mutex mutex_;
+  std::map<std::size_t, double> rendering_;  // the parts of frames that are done
+  std::size_t ended_ = 0;
+  double reported_ = 0.0;
+};
 
 }  // namespace
 
 Result<std::vector<FrameFailure>> run_stages(const std::vector<int>& frames, const FrameStages& stages,
                                              const RunFramesOptions& options, const Context& context) {
   Failures failures(options.keep_going, context);
+  SequenceProgress progress(context, frames.size());
   // The data of the next stage; null for a frame that failed or was cancelled.
   const auto data_or_null = [&](std::size_t i, FrameData data) -> StageItem {
     if (data) return std::move(*data);
@@ -60,11 +89,15 @@ Result<std::vector<FrameFailure>> run_stages(const std::vector<int>& frames, con
     return nullptr;
   };
   const Stage read = [&](std::size_t i, const StageItem&) -> StageItem {
-    return failures.goes_on_at(i) ? data_or_null(i, stages.read(frames[i])) : nullptr;
+    StageItem data = failures.goes_on_at(i) ? data_or_null(i, stages.read(frames[i])) : nullptr;
+    if (!data) progress.end(i);
+    return data;
   };
   const Stage render = [&](std::size_t i, const StageItem& item) -> StageItem {
-    if (!failures.goes_on_at(i)) return nullptr;
-    return data_or_null(i, stages.render(frames[i], item.get(), frame_context(context, i, frames.size())));
+    StageItem data =
+        failures.goes_on_at(i) ? data_or_null(i, stages.render(frames[i], item.get(), progress.of_frame(i))) : nullptr;
+    progress.end(i);
+    return data;
   };
   const Stage write = [&](std::size_t i, const StageItem& item) -> StageItem {
     if (context.cancelled()) return nullptr;
@@ -72,7 +105,10 @@ Result<std::vector<FrameFailure>> run_stages(const std::vector<int>& frames, con
       failures.add(i, frames[i], std::move(written.error()));
     return nullptr;
   };
-  staged_pipeline(frames.size(), static_cast<std::size_t>(std::max(1, options.max_frames_held)), {read, render, write});
+  const auto at_least_1 = [](int number) { return static_cast<std::size_t>(std::max(1, number)); };
+  const std::size_t held = at_least_1(options.max_frames_held);
+  staged_pipeline(frames.size(), held, {read, render, write},
+                  std::min(held, at_least_1(options.frames_rendered_at_once)));
   if (context.cancelled()) return interrupted();
   return std::move(failures).by_frame();
 }

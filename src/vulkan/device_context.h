@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A logical device with all that lives from frame to frame: queue, pipelines, descriptors, buffers.
+// What a frame in flight owns on an opened device, from frame to frame: commands, descriptors, buffers. Contexts of one
+// device share no memory, so that the device may draw the frames of several at once.
 // Failures are exceptions of vulkan.hpp, or Hang; the caller turns them into error values.
-// Thread-safety: one thread at a time.
+// Thread-safety: one thread at a time uses a context; several threads may each use one of the same device.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,9 +18,10 @@
 #include "render/device/frame_device.h"
 #include "vulkan/buffer.h"
 #include "vulkan/layout.h"
-#include "vulkan/lent_device.h"
+#include "vulkan/opened_device.h"
 #include "vulkan/raii.h"
 #include "vulkan/shader.h"
+#include "vulkan/slots.h"
 
 namespace contrejour::inline internal::vulkan {
 
@@ -26,70 +29,6 @@ namespace contrejour::inline internal::vulkan {
 struct Hang : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-
-// In the order of their bindings (shaders/bindings.glsl).
-enum class Slot : std::uint8_t {
-  Floats,
-  Integers,
-  Tables,
-  Rays,
-  Crossings,
-  Sums,
-  Counters,
-  Picture,
-  Bounds,
-  Large,
-  LargeCorners,
-  Blocks,
-  Doubles,
-  Vertices,
-  Items,
-  Groups,
-  Boxes,
-  Found,
-  States,
-  Offsets,
-  CutCells,
-  TileCounts,
-  TileFirst,
-  TileLists,
-  Indirect,
-  Starts,
-  Wide,
-  Patterns,
-  TileTasks,
-  Dirt,
-  Starbursts,
-};
-inline constexpr std::size_t kSlots = 31;
-
-// Slots that shaders also read as texels; their bindings follow the slots'.
-struct TexelSlot {
-  Slot slot;
-  vk::Format format;
-  std::uint32_t bytes;  // of a texel
-};
-inline constexpr std::array kTexelSlots{TexelSlot{Slot::Tables, vk::Format::eR32G32Sfloat, 8},
-                                        TexelSlot{Slot::Rays, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::Crossings, vk::Format::eR32G32Sfloat, 8},
-                                        TexelSlot{Slot::Vertices, vk::Format::eR32G32Sfloat, 8},
-                                        TexelSlot{Slot::Bounds, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::Large, vk::Format::eR32G32B32A32Uint, 16},
-                                        TexelSlot{Slot::LargeCorners, vk::Format::eR32G32Sfloat, 8},
-                                        TexelSlot{Slot::TileLists, vk::Format::eR32Uint, 4},
-                                        TexelSlot{Slot::Blocks, vk::Format::eR32Sfloat, 4},
-                                        TexelSlot{Slot::Floats, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::Integers, vk::Format::eR32G32B32A32Sint, 16},
-                                        TexelSlot{Slot::Items, vk::Format::eR32G32B32A32Uint, 16},
-                                        TexelSlot{Slot::Starts, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::States, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::Offsets, vk::Format::eR32Uint, 4},
-                                        TexelSlot{Slot::CutCells, vk::Format::eR32G32Uint, 8}};
-// Every device lets a stage read 16 (maxPerStageDescriptorSampledImages).
-static_assert(kTexelSlots.size() <= 16);
-// Slots that trace.comp reads as uniform buffers, from a grid's path on.
-inline constexpr std::array kPathSlots{Slot::Floats, Slot::Doubles, Slot::Integers};
-inline constexpr std::uint32_t kPushedBytes = 128;  // of parameters: what every device has
 
 struct GroupCount {
   std::uint32_t x = 1, y = 1;
@@ -105,8 +44,8 @@ struct QueueSemaphores {
 
 class DeviceContext {
  public:
-  // options: of which the longest wait, a lent device and what is called before submissions count.
-  DeviceContext(const vk::raii::PhysicalDevice& physical, const DeviceInfo& info, const DeviceOptions& options);
+  // options: of which the longest wait and what is called before submissions count.
+  DeviceContext(std::shared_ptr<OpenedDevice> opened, const DeviceInfo& info, const DeviceOptions& options);
   ~DeviceContext();
   DeviceContext(const DeviceContext&) = delete;
   DeviceContext& operator=(const DeviceContext&) = delete;
@@ -117,7 +56,7 @@ class DeviceContext {
   // Makes a buffer large enough, and takes part in no submission meanwhile.
   void need(Slot slot, std::uint64_t bytes);
   void need_fetched(std::uint64_t bytes);  // what fetch() may copy in one submission
-  void need(Buffer& other, std::uint64_t bytes) { other.need(device_, memory_, bytes); }
+  void need(Buffer& other, std::uint64_t bytes) { other.need(device_, opened_->memory(), bytes); }
   template <class T>
   void upload(Slot slot, const std::vector<T>& values) {
     need(slot, values.size() * sizeof(T));
@@ -174,9 +113,7 @@ class DeviceContext {
  private:
   static constexpr std::uint64_t kGroup = 64;  // invocations of most shaders' workgroups
 
-  void make_layouts();
-  void read_pipelines();
-  [[nodiscard]] vk::Pipeline pipeline_of(Program program);
+  void make_sets();
   void describe_buffers();
   void describe_texels();
   void read_clock();
@@ -185,29 +122,21 @@ class DeviceContext {
   void push(Program program, const P& parameters) {
     static_assert(sizeof(P) <= kPushedBytes);
     const vk::raii::CommandBuffer& commands = commands_.front();
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_of(program));
-    commands.pushConstants<P>(*pipeline_layout_, vk::ShaderStageFlagBits::eCompute, 0, parameters);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, opened_->pipeline_of(program));
+    commands.pushConstants<P>(opened_->pipeline_layout(), vk::ShaderStageFlagBits::eCompute, 0, parameters);
   }
 
+  std::shared_ptr<OpenedDevice> opened_;
+  const vk::raii::Device& device_ = opened_->device();
   DeviceInfo info_;
   double longest_wait_s_;
   std::function<void(std::uint64_t)> before_submission_;
-  vk::PhysicalDeviceProperties properties_;
-  vk::PhysicalDeviceMemoryProperties memory_;
-  QueuedDevice queued_;
-  const vk::raii::Device& device_ = queued_.device.object;
-  const vk::raii::Queue& queue_ = queued_.queue;
-  vk::raii::DescriptorSetLayout set_layout_ = nullptr, path_layout_ = nullptr;
-  vk::raii::PipelineLayout pipeline_layout_ = nullptr;
-  vk::raii::PipelineCache cache_ = nullptr;
-  std::vector<vk::raii::Pipeline> pipelines_;  // by program; null until it is used
   vk::raii::DescriptorPool descriptor_pool_ = nullptr;
   std::vector<vk::raii::DescriptorSet> sets_;  // that of all buffers, and that of the path
   vk::raii::CommandPool command_pool_ = nullptr;
   std::vector<vk::raii::CommandBuffer> commands_;  // one
   vk::raii::Fence fence_ = nullptr;
   vk::raii::QueryPool clock_ = nullptr;  // null: the queue has none
-  double tick_ns_ = 0.0;
   std::vector<std::string> stages_;  // of the submission that is being made
   std::vector<std::pair<std::string, double>> stages_ms_;
   std::vector<Buffer> buffers_;  // by Slot

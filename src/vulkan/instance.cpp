@@ -9,7 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "vulkan/device_context.h"
+#include "vulkan/layout.h"
+#include "vulkan/slots.h"
 
 namespace contrejour::inline internal::vulkan {
 namespace {

@@ -12,6 +12,7 @@
 #include "render/device/frame_device.h"
 #include "vulkan/adaptive_frame.h"
 #include "vulkan/device_context.h"
+#include "vulkan/device_source.h"
 #include "vulkan/grid_frame.h"
 #include "vulkan/instance.h"
 #include "vulkan/picture_writer.h"
@@ -24,23 +25,31 @@ namespace {
 
 constexpr double kLongestWait_s = 10.0, kLongestWaitOfProcessor_s = 300.0;
 
-Result<std::unique_ptr<Instance>> open_instance(const DeviceOptions& options) {
-  return options.lent ? Instance::borrow(*options.lent) : Instance::open(options.on_message);
+// The options with their defaults for a device.
+DeviceOptions completed(DeviceOptions options, const DeviceInfo& info) {
+  if (!(options.longest_wait_s > 0.0))
+    options.longest_wait_s = info.kind == "processor" ? kLongestWaitOfProcessor_s : kLongestWait_s;
+  if (options.lent) options.lent->features = nullptr;  // which are the caller's only during its call
+  return options;
 }
 
 class VulkanDevice final : public FrameDevice {
  public:
-  VulkanDevice(std::unique_ptr<Instance> instance, DeviceInfo info, DeviceOptions options)
-      : instance_(std::move(instance)), info_(std::move(info)), options_(std::move(options)) {
-    if (!(options_.longest_wait_s > 0.0))
-      options_.longest_wait_s = info_.kind == "processor" ? kLongestWaitOfProcessor_s : kLongestWait_s;
-    if (options_.lent) options_.lent->features = nullptr;  // which are the caller's only during its call
+  VulkanDevice(std::shared_ptr<DeviceSource> source, DeviceInfo info, DeviceOptions options)
+      : source_(std::move(source)), info_(std::move(info)), options_(std::move(options)) {
     if (options_.most_buffer_bytes > 0)
       info_.storage_range_bytes = std::min(info_.storage_range_bytes, options_.most_buffer_bytes);
   }
+  ~VulkanDevice() override { drop_context(); }
 
   [[nodiscard]] const DeviceInfo& info() const override { return info_; }
   [[nodiscard]] std::uint64_t memory_bytes() const override { return context_ ? context_->memory_bytes() : 0; }
+
+  [[nodiscard]] Result<std::unique_ptr<FrameDevice>> another() const override {
+    auto device = std::make_unique<VulkanDevice>(source_, info_, options_);
+    if (const auto started = device->start(); !started) return tl::unexpected(started.error());
+    return device;
+  }
 
   // Makes the context now, so that a device that does not start is an error when it is opened.
   [[nodiscard]] Result<void> start() {
@@ -71,7 +80,8 @@ class VulkanDevice final : public FrameDevice {
     const auto from = Clock::now();
     DeviceWork work;
     const auto done = guarded([&] {
-      DeviceContext& device = context();
+      // A picture that is kept is lost with its context, which is used for it even if another frame has failed.
+      DeviceContext& device = image == nullptr && context_ ? *context_ : context();
       if (image != nullptr) picture_ = sent(device, *image);
       PictureWriter(device, info_, options_.most_rows, target).write(picture_);
       work.submissions = 1;
@@ -92,8 +102,29 @@ class VulkanDevice final : public FrameDevice {
 
  private:
   DeviceContext& context() {
-    if (!context_) context_ = std::make_unique<DeviceContext>(instance_->physical(info_.index), info_, options_);
+    if (opened_ && opened_->has_failed()) drop_context();  // in another frame
+    if (!opened_) opened_ = source_->device();
+    if (!context_) context_ = std::make_unique<DeviceContext>(opened_, info_, options_);
     return *context_;
+  }
+
+  // Forgets all that is on the device. After a hang nothing of it may be freed, since it may still run.
+  void drop_context() {
+    adaptive_ = {};
+    stop_tables_ = {};
+    grids_ = {};
+    starbursts_ = {};
+    picture_ = {};
+    if (opened_ && opened_->is_abandoned())
+      static_cast<void>(context_.release());
+    else
+      context_ = nullptr;
+    opened_ = nullptr;
+  }
+
+  // The others that share the device begin their next frames on a new one, too.
+  void fail_device() {
+    if (opened_) opened_->set_failed();
   }
 
   // A picture to which the CPU has to add starbursts is read.
@@ -184,7 +215,8 @@ class VulkanDevice final : public FrameDevice {
 
   [[nodiscard]] DeviceRays trace_alone(DeviceContext& device, const DeviceGrid& grid) const;
 
-  // Calls a function that may fail. After a failure the next call begins with a new context.
+  // Calls a function that may fail. After a failure the next call begins with a new context; and with a new device,
+  // unless only memory was short, which is the context's.
   template <class Work>
   [[nodiscard]] Result<void> guarded(const Work& work) {
     std::string message;
@@ -193,32 +225,27 @@ class VulkanDevice final : public FrameDevice {
       return {};
     } catch (const Hang& hang) {
       message = hang.what();
-      // It may still run, so that nothing of it may be freed; neither may the instance.
-      context_.release();  // NOLINT(bugprone-unused-return-value)
-      instance_.release();  // NOLINT(bugprone-unused-return-value)
-      if (auto again = open_instance(options_)) instance_ = std::move(*again);
+      source_->abandon(opened_);
     } catch (const vk::OutOfDeviceMemoryError& error) {
       message = fmt::format("its memory does not suffice ({})", error.what());
     } catch (const vk::DeviceLostError& error) {
       message = fmt::format("it was lost ({})", error.what());
+      fail_device();
     } catch (const std::exception& error) {
       message = error.what();
+      fail_device();
     }
-    adaptive_ = {};
-    stop_tables_ = {};
-    grids_ = {};
-    starbursts_ = {};
-    picture_ = {};
-    context_.reset();
+    drop_context();
     if (options_.lent)
       return failure(ErrorCode::Unsupported, fmt::format("the lent device ({}) failed: {}", info_.name, message));
     return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
                                                        info_.index, info_.name, message));
   }
 
-  std::unique_ptr<Instance> instance_;
+  std::shared_ptr<DeviceSource> source_;
   DeviceInfo info_;
   DeviceOptions options_;
+  std::shared_ptr<OpenedDevice> opened_;  // null: the next call asks for it
   std::unique_ptr<DeviceContext> context_;
   AdaptiveKept adaptive_;
   GridKept grids_;
@@ -342,7 +369,9 @@ Result<std::unique_ptr<FrameDevice>> open_frame_device(const DeviceOptions& opti
   const char* const wanted = options.lent ? nullptr : std::getenv("CONTREJOUR_DEVICE");
   const auto info = vulkan::chosen(all, !options.which.empty() ? options.which : wanted != nullptr ? wanted : "");
   if (!info) return tl::unexpected(info.error());
-  auto device = std::make_unique<vulkan::VulkanDevice>(std::move(*instance), *info, options);
+  const DeviceOptions used = vulkan::completed(options, *info);
+  auto source = std::make_shared<vulkan::DeviceSource>(std::move(*instance), *info, used);
+  auto device = std::make_unique<vulkan::VulkanDevice>(std::move(source), *info, used);
   if (const auto started = device->start(); !started) return tl::unexpected(started.error());
   return device;
 }

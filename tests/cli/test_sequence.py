@@ -177,6 +177,36 @@ class Sequence(ProgramTest):
         self.render("-o", "first.exr")  # a still: the first frame that has a key
         self.assertEqual((self.folder / "first.exr").read_bytes(), (self.folder / "out.0001.exr").read_bytes())
 
+    def test_frames_in_flight_are_those_of_stills(self):
+        if not any(device["usable"] for device in self.json_of("devices")):
+            self.skipTest("no device is usable")
+        self.write_shot()
+        device = ["--device", "vulkan", "--size", "64x36"]
+        for count in (1, 2, 3):
+            done = self.render("-o", f"of{count}.#.exr", "--frames", "1-6", "--json", "--frames-in-flight", count, *device)
+            reports = [json.loads(line) for line in done.stdout.decode().splitlines()]
+            self.assertEqual([report["frame"] for report in reports], list(range(1, 7)))
+            self.assertNotEqual(reports[0]["statistics"]["device"], "cpu")
+        for number in range(1, 7):
+            for count in (2, 3):
+                self.assertEqual((self.folder / f"of{count}.{number}.exr").read_bytes(),
+                                 (self.folder / f"of1.{number}.exr").read_bytes(), (count, number))
+        self.run_program("render", "heliar", *device, "-f", "10", "--light-at", "0.6,0.4:5000", "-o", "still.exr")
+        self.assertEqual((self.folder / "of2.3.exr").read_bytes(), (self.folder / "still.exr").read_bytes())
+        done = self.render("-o", "of2.#.exr", "--frames", "1-6", "--resume", "--frames-in-flight", "1", *device)
+        self.assertIn("6 of 6 frames are done", done.stderr.decode())
+        self.write_frames(1, 2, 3, 5)
+        for count in (1, 2):
+            self.run_program("apply", *LENS, "plate.####.exr", "-o", f"on{count}.#.exr", "--device", "vulkan", "--frames", "1-5",
+                             "--missing", "black", "--frames-in-flight", count)
+        for number in range(1, 6):
+            self.assertEqual((self.folder / f"on1.{number}.exr").read_bytes(), (self.folder / f"on2.{number}.exr").read_bytes())
+
+    def test_the_number_of_frames_in_flight_is_checked(self):
+        self.write_shot()
+        for count in ("0", "9"):
+            self.render("-o", "out.#.exr", "--frames", "1", "--frames-in-flight", count, code=2)
+
     def test_a_rendered_sequence_names_its_frames(self):
         self.write_shot()
         self.assertIn("--frames", self.render("-o", "out.####.exr", code=1).stderr.decode())

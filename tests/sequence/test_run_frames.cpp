@@ -147,3 +147,127 @@ TEST_CASE("progress rises over the frames; no frames are no work") {
   CHECK(progress == std::vector<double>{0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0});
   CHECK(run_frames({}, number, render, write, {}, context).value().empty());
 }
+
+TEST_CASE("several frames are rendered at once, and written in order") {
+  for (const int at_once : {2, 3}) {
+    std::vector<int> read, written;
+    std::atomic<int> rendering = 0, most = 0;
+    const auto failures = run_frames(
+        frames_to(60),
+        [&](int frame) -> Result<int> {
+          read.push_back(frame);
+          return frame;
+        },
+        [&](int frame, int& in, const Context&) -> Result<int> {
+          const int now = ++rendering;
+          for (int before = most; before < now && !most.compare_exchange_weak(before, now);) continue;
+          std::this_thread::sleep_for(std::chrono::milliseconds(1 + frame % 4));
+          --rendering;
+          return 10 * in;
+        },
+        [&](int frame, int& out) -> Result<void> {
+          CHECK(out == 10 * frame);
+          written.push_back(frame);
+          return {};
+        },
+        {false, at_once + 2, at_once});
+    REQUIRE(failures.has_value());
+    CHECK(failures->empty());
+    CHECK(read == frames_to(60));
+    CHECK(written == frames_to(60));
+    CHECK(most > 1);
+    CHECK(most <= at_once);
+  }
+}
+
+TEST_CASE("no more frames are rendered at once than are held") {
+  std::atomic<int> rendering = 0;
+  const auto render = [&](int, int& in, const Context&) -> Result<int> {
+    CHECK(++rendering == 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --rendering;
+    return in;
+  };
+  const auto write = [](int, int&) -> Result<void> { return {}; };
+  REQUIRE(run_frames(frames_to(20), number, render, write, {false, 1, 8}).has_value());
+}
+
+TEST_CASE("of frames that are rendered at once, those before a failure are finished, and all are listed") {
+  for (const bool keep_going : {false, true}) {
+    std::vector<int> written;
+    const auto failures = run_frames(
+        frames_to(60), number,
+        [&](int frame, int& in, const Context&) -> Result<int> {
+          std::this_thread::sleep_for(std::chrono::milliseconds(frame % 3));
+          if (frame == 21 || frame == 20) return failure(ErrorCode::Io, "broken");
+          return in;
+        },
+        [&](int frame, int&) -> Result<void> {
+          written.push_back(frame);
+          return {};
+        },
+        {keep_going, 5, 3});
+    REQUIRE(failures.has_value());
+    REQUIRE_FALSE(failures->empty());
+    CHECK(std::ranges::is_sorted(written));
+    REQUIRE(written.size() >= 19);
+    for (int frame = 1; frame < 20; ++frame) CHECK(written[static_cast<std::size_t>(frame - 1)] == frame);
+    if (keep_going) {
+      CHECK(written.size() == 58);
+      REQUIRE(failures->size() == 2);
+      CHECK((*failures)[0].frame == 20);
+      CHECK((*failures)[1].frame == 21);
+    } else {
+      CHECK(written.size() <= 23);  // some may have been begun before
+      CHECK(failures->front().frame == 20);
+    }
+  }
+}
+
+TEST_CASE("cancelling ends frames that are rendered at once") {
+  std::atomic<bool> cancel = false;
+  Context context;
+  context.cancel = &cancel;
+  std::vector<int> written;
+  const auto render = [&](int frame, int& in, const Context& within) -> Result<int> {
+    while (frame > 5 && !within.cancelled()) std::this_thread::yield();
+    if (within.cancelled()) return failure(ErrorCode::Cancelled, "interrupted");
+    return in;
+  };
+  const auto failures = run_frames(
+      frames_to(1000), number, render,
+      [&](int frame, int&) -> Result<void> {
+        written.push_back(frame);
+        if (frame == 5) cancel = true;
+        return {};
+      },
+      {false, 4, 2}, context);
+  REQUIRE_FALSE(failures.has_value());
+  CHECK(failures.error().code == ErrorCode::Cancelled);
+  CHECK(written == frames_to(5));
+}
+
+TEST_CASE("progress never falls while several frames report theirs, and ends at 1") {
+  std::vector<double> progress;
+  Context context;
+  context.progress = [&](double done) { progress.push_back(done); };
+  const auto read = [](int frame) -> Result<int> {
+    if (frame == 7) return failure(ErrorCode::Io, "broken");
+    return frame;
+  };
+  const auto render = [](int frame, int& in, const Context& within) -> Result<int> {
+    for (const double done : {0.25, 0.5, 0.25, 1.0}) {  // as a frame that is drawn anew
+      within.progress(done);
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * (frame % 5)));
+    }
+    return in;
+  };
+  const auto write = [](int, int&) -> Result<void> { return {}; };
+  const auto failures = run_frames(frames_to(40), read, render, write, {true, 5, 3}, context);
+  REQUIRE(failures.has_value());
+  CHECK(failures->size() == 1);
+  CHECK(progress.size() == 4 * 39);
+  CHECK(std::ranges::is_sorted(progress));
+  CHECK(progress.front() > 0.0);
+  CHECK(progress.back() == 1.0);
+}

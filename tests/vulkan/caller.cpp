@@ -29,7 +29,7 @@ using BufferUse = vk::BufferUsageFlagBits;
 VKAPI_ATTR VkBool32 VKAPI_CALL note_message(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
                                             VkDebugUtilsMessageTypeFlagsEXT /*types*/,
                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* /*user*/) {
-  messages().emplace_back(data->pMessage);
+  add_message(data->pMessage);
   return VK_FALSE;
 }
 

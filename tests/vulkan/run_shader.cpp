@@ -79,7 +79,7 @@ void dispatch(const ComputeDevice& on, const std::vector<std::uint32_t>& code, c
 }  // namespace
 
 std::optional<std::vector<float>> run_shader(const std::string& spirv_file, const std::vector<float>& values) {
-  const auto instance = vulkan::Instance::open([](const std::string& message) { messages().push_back(message); });
+  const auto instance = vulkan::Instance::open(add_message);
   if (!instance) return std::nullopt;
   const ComputeDevice on(**instance);
   if (on.physical == nullptr) return std::nullopt;

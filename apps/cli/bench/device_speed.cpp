@@ -2,8 +2,10 @@
 #include "cli/bench/device_speed.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <map>
+#include <thread>
 #include <utility>
 
 #include "cli/bench/scene.h"
@@ -17,6 +19,8 @@ namespace {
 constexpr double kStep = 1e-5;           // of a light's direction from frame to frame, less than a pixel
 constexpr double kFineError = 1e-4;      // of what the first frame is compared with
 constexpr double kWarm_ms = 1500.0;  // of frames that do not count: clocks rise, buffers grow
+constexpr std::size_t kMostInFlight = 3;  // frames at once
+constexpr int kWarmFrames = 4;           // of each further renderer that do not count
 constexpr std::string_view kDevicePhase = "device: ", kCopyPhase = "device: fetch";
 
 double median(std::vector<double> values) {
@@ -62,6 +66,48 @@ class Times {
   std::vector<double> frame_ms_, device_ms_;
   std::map<std::string, std::vector<double>> by_stage_;
 };
+
+// Draws frames by all renderers at once. Returns how many there were in a second.
+Result<double> frames_a_second(std::vector<Renderer>& renderers, const BenchScene& scene, int frames,
+                               const Context& context) {
+  std::atomic<int> next = 0;
+  std::vector<Result<void>> ends(renderers.size());
+  const auto draw = [&](std::size_t k) {
+    for (int frame = next++; frame < frames && ends[k]; frame = next++) {
+      const FrameTarget target{.pixels = {}, .draft_is_ready = {}, .is_discarded = true};
+      const auto lights = moved(scene.lights, static_cast<std::size_t>(frame));
+      if (auto drawn = renderers[k].render(lights, scene.settings, target, context); !drawn)
+        ends[k] = tl::unexpected(drawn.error());
+    }
+  };
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < renderers.size(); ++k) threads.emplace_back(draw, k);
+  for (std::thread& thread : threads) thread.join();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  for (const Result<void>& end : ends)
+    if (!end) return tl::unexpected(end.error());
+  return frames / elapsed.count();
+}
+
+// The same for one renderer and more.
+Result<std::vector<double>> speeds_in_flight(Renderer first, const BenchScene& scene, int frames,
+                                             const Context& context) {
+  std::vector<Renderer> renderers;
+  renderers.push_back(std::move(first));
+  std::vector<double> speeds;
+  while (true) {
+    const int warm = kWarmFrames * static_cast<int>(renderers.size());
+    if (auto warmed = frames_a_second(renderers, scene, warm, context); !warmed) return tl::unexpected(warmed.error());
+    const auto speed = frames_a_second(renderers, scene, frames, context);
+    if (!speed) return tl::unexpected(speed.error());
+    speeds.push_back(*speed);
+    if (speeds.size() == kMostInFlight) return speeds;
+    auto other = renderers.front().another();
+    if (!other) return tl::unexpected(other.error());
+    renderers.push_back(std::move(*other));
+  }
+}
 
 Result<std::optional<double>> compared(const BenchScene& scene, const Image& first, const Context& context) {
   auto exact = Renderer::create(AdaptiveOptions{kFineError});
@@ -111,6 +157,9 @@ Result<DeviceSpeed> measure_device(const PaperSystem& system, const DeviceRun& r
     speed.last = std::move(*statistics);
   }
   times.report(speed);
+  auto in_flight = speeds_in_flight(std::move(*renderer), *scene, run.frames, context);
+  if (!in_flight) return tl::unexpected(in_flight.error());
+  speed.frames_a_second = std::move(*in_flight);
   return speed;
 }
 

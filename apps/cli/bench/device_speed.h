@@ -20,6 +20,8 @@ struct DeviceSpeed {
   int lights = 0, frames = 0;
   double device_ms = 0.0;  // median, by the device's clock, without copying the picture; 0: it has none
   double frame_ms = 0.0;   // median, elapsed
+  // With as many renderers at once, each on a thread of its own, from 1 on.
+  std::vector<double> frames_a_second;
   double paper_ms = 0.0;   // bodonyi2023, tiled; 0: not measured there
   std::optional<double> psnr_db;  // of the first frame, against the CPU at a thirtieth of the error
   RenderStatistics last;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Works through the frames of a sequence: reading, rendering and writing of different frames overlap, while each of the
-// three handles one frame at a time, in the given order. The memory in use is that of a few frames.
-// Thread-safety: the three functions are called from different threads, each from one at a time; so what two of them
-// share must be safe for two threads.
+// three handles one frame at a time, in the given order; several are rendered at once where the options say so, and are
+// written in order all the same. The memory in use is that of a few frames.
+// Thread-safety: the three functions are called from different threads, each from one at a time, and rendering from
+// frames_rendered_at_once; so what two of them share must be safe for two threads. Progress is reported by one thread
+// at a time.
 #pragma once
 
 #include <functional>
@@ -19,6 +21,7 @@ namespace contrejour {
 struct RunFramesOptions {
   bool keep_going = false;  // renders the frames after one that failed
   int max_frames_held = 3;  // at once, from reading to writing
+  int frames_rendered_at_once = 1;  // no more than are held; frames may then begin in a slightly different order
 };
 
 struct FrameFailure {
@@ -46,7 +49,7 @@ struct FrameStages {
 //   Result<In> read(int frame), Result<Out> render(int frame, In& in, const Context&), Result<void> write(int frame,
 //   Out& out).
 // After a failure no further frame is begun, unless options.keep_going; frames before it are finished. Progress is that
-// of rendering. Returns the frames that failed. Errors: Cancelled.
+// of rendering, and rises. Returns the frames that failed. Errors: Cancelled.
 template <class Read, class Render, class Write>
 Result<std::vector<FrameFailure>> run_frames(const std::vector<int>& frames, Read read, Render render, Write write,
                                              const RunFramesOptions& options = {}, const Context& context = {}) {

@@ -24,6 +24,12 @@ using SourceRenderer = std::variant<Renderer, MeasuredFlare>;
 [[nodiscard]] CONTREJOUR_API Result<SourceRenderer> renderer_of(const params::Values& values,
                                                                 const FlareSource& source);
 
+// The same again, for frames that another thread draws at the same time (Renderer::another).
+[[nodiscard]] CONTREJOUR_API Result<SourceRenderer> another(const SourceRenderer& renderer);
+
+// Whether a device draws the frames (Renderer::has_device); it draws no measured flare.
+[[nodiscard]] CONTREJOUR_API bool has_device(const SourceRenderer& renderer);
+
 // Why the CPU renders although another device was asked for; empty: it does not (Renderer::device_note).
 [[nodiscard]] CONTREJOUR_API std::string device_note(const SourceRenderer& renderer);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device, such as a GPU, that traces grids of rays and draws them into an image. The renderers describe what is to be
 // drawn as plain data and know no device; an implementation is a layer that nobody includes (src/vulkan).
-// Thread-safety: one thread at a time uses a device.
+// Thread-safety: one thread at a time uses a device; another() makes one for a further thread.
 #pragma once
 
 #include <algorithm>
@@ -212,6 +212,12 @@ class FrameDevice {
   [[nodiscard]] virtual Result<DeviceRays> trace(const DeviceGrid& grid) = 0;
 
   [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;  // held on the device
+
+  // A further one on the same logical device, whose frames another thread draws at the same time; the bits of frames
+  // are the same. The two share the queue and the pipelines, and no other memory. After a failure of either that is no
+  // lack of memory, the next call of each starts anew. Thread-safety: any thread, also while this one draws. Errors:
+  // Unsupported, if the device fails.
+  [[nodiscard]] virtual Result<std::unique_ptr<FrameDevice>> another() const = 0;
 };
 
 // How a device is opened.
@@ -219,13 +225,16 @@ struct DeviceOptions {
   std::string which = {};  // index, or a part of the name; empty: CONTREJOUR_DEVICE, or else the first usable one
   std::optional<VulkanHandles> lent = std::nullopt;  // a caller's device, in place of one that is opened by name
   // Not empty: validation layers are on (not for a lent device), where they are installed, and each message is
-  // reported.
+  // reported, by each thread that draws.
   std::function<void(const std::string& message)> on_message = {};
-  double longest_wait_s = 0.0;  // until a submission counts as hanging; 0: 10 s, on processors acting as GPUs 300 s
+  // Until a submission counts as hanging, times the number of devices that another() has made; 0: 10 s, on processors
+  // acting as GPUs 300 s.
+  double longest_wait_s = 0.0;
   std::uint64_t most_buffer_bytes = 0;  // a smaller limit than the device's for one buffer, for tests; 0: the device's
   int most_rows = 0;  // of a picture that are drawn at once, for tests; 0: as many as fit into the device's buffers
   int large_pixels = 0;  // from which on `bundle` and `tiled` draw by tile, for tests; 0: what suits the device
-  // Called before each submission with its number; an exception counts as the device's failure. For tests.
+  // Called before each submission with its number, by each thread that draws; an exception counts as the device's
+  // failure. For tests.
   std::function<void(std::uint64_t submission)> before_submission = {};
 };
 

@@ -63,6 +63,22 @@ Result<Renderer> Renderer::create(MethodOptions method, Device device, const std
   return renderer;
 }
 
+Result<Renderer> Renderer::another() const {
+  Renderer renderer(std::make_unique<State>(State{state_->method, state_->lens}));
+  renderer.state_->device = state_->device;
+  renderer.state_->device_note = state_->device_note;
+  const auto own = state_->cache.find<KeptDevice>();
+  if (!own) return renderer;
+  KeptDevice& kept = *renderer.state_->cache.section<KeptDevice>({});
+  kept.is_required = own->is_required;
+  if (own->device) {
+    auto device = own->device->another();
+    if (!device) return tl::unexpected(device.error());
+    kept.device = std::move(*device);
+  }
+  return renderer;
+}
+
 Result<void> Renderer::set_device(Device device, const std::string& which) {
   if (state_->device == std::pair(device, which)) return {};
   KeptDevice& kept = *state_->cache.section<KeptDevice>({});
@@ -91,6 +107,11 @@ Result<void> Renderer::set_vulkan_device(const VulkanHandles& handles) {
   kept.is_required = true;
   state_->device.reset();
   return {};
+}
+
+bool Renderer::has_device() const {
+  const auto kept = state_->cache.find<KeptDevice>();
+  return kept && kept->device;
 }
 
 const std::string& Renderer::device_note() const { return state_->device_note; }

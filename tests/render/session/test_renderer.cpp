@@ -227,6 +227,29 @@ TEST_CASE("cancelled at any moment, a renderer keeps nothing that is incomplete"
   }
 }
 
+TEST_CASE("another renderer draws at the same time, with the method and the lens of the first") {
+  const std::vector<SessionFrame> frames = changing_frames();
+  auto first = Renderer::create(AdaptiveOptions{0.01});
+  REQUIRE(first.has_value());
+  REQUIRE(first->set_lens(frames.front().lens).has_value());
+  const auto alone = first->render(frames.front().lights, frames.front().settings);
+  auto other = first->another();
+  REQUIRE((alone && other));
+  CHECK_FALSE(other->has_device());
+  std::vector<Pixels> by_other;
+  std::thread drawing([&] {
+    for (int k = 0; k < 3; ++k)
+      if (auto flare = other->render(frames.front().lights, frames.front().settings))
+        by_other.push_back(std::move(flare->image.pixels));
+  });
+  for (std::size_t k = 1; k < 4; ++k) {
+    CHECK(first->set_lens(frames[k].lens).has_value());
+    CHECK(first->render(frames[k].lights, frames[k].settings).has_value());
+  }
+  drawing.join();
+  CHECK(by_other == std::vector<Pixels>(3, alone->image.pixels));
+}
+
 TEST_CASE("what a renderer refuses") {
   const SessionFrame f = frame_of("", bundled("heliar", {.f_number = 8.0}), {0.7, 0.35});
   Renderer session = renderer_of(AdaptiveOptions{});
