@@ -45,7 +45,7 @@ std::string or_dash(double value, int digits) { return value > 0.0 ? fmt::format
 
 std::string in_flight_text(const DeviceSpeed& one) {
   std::string text;
-  for (const double speed : one.frames_a_second) text += fmt::format("{}{:.0f}", text.empty() ? "" : " / ", speed);
+  for (const double speed : one.frames_a_second) text += fmt::format("{}{:.1f}", text.empty() ? "" : " / ", speed);
   return text;
 }
 

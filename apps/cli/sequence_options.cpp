@@ -70,8 +70,7 @@ void add_sequence_options(CLI::App& command, SequenceOptions& options, SequenceI
                 "print the frames that would be rendered (with --resume: those that are not done), and render none")
       ->group(kSequenceGroup);
   add_number(command, "--frames-in-flight", options.frames_in_flight, 1, 8,
-             "frames that a device (--device) draws at once, which takes its memory as often; the CPU draws one at a "
-             "time")
+             "frames that a device (--device) draws at once, each with buffers of its own; the CPU draws one at a time")
       ->group(kSequenceGroup);
 }
 

@@ -181,7 +181,7 @@ class Sequence(ProgramTest):
         if not any(device["usable"] for device in self.json_of("devices")):
             self.skipTest("no device is usable")
         self.write_shot()
-        device = ["--device", "vulkan", "--size", "64x36"]
+        device = ["--device", "vulkan"]
         for count in (1, 2, 3):
             done = self.render("-o", f"of{count}.#.exr", "--frames", "1-6", "--json", "--frames-in-flight", count, *device)
             reports = [json.loads(line) for line in done.stdout.decode().splitlines()]
@@ -191,7 +191,7 @@ class Sequence(ProgramTest):
             for count in (2, 3):
                 self.assertEqual((self.folder / f"of{count}.{number}.exr").read_bytes(),
                                  (self.folder / f"of1.{number}.exr").read_bytes(), (count, number))
-        self.run_program("render", "heliar", *device, "-f", "10", "--light-at", "0.6,0.4:5000", "-o", "still.exr")
+        self.run_program("render", "heliar", "--size", "96x64", *device, "-f", "10", "--light-at", "0.6,0.4:5000", "-o", "still.exr")
         self.assertEqual((self.folder / "of2.3.exr").read_bytes(), (self.folder / "still.exr").read_bytes())
         done = self.render("-o", "of2.#.exr", "--frames", "1-6", "--resume", "--frames-in-flight", "1", *device)
         self.assertIn("6 of 6 frames are done", done.stderr.decode())

@@ -4,8 +4,8 @@
 // Handles have Vulkan's own types, which are declared here and not included: a VkDevice is assigned without a cast, and
 // a program without Vulkan needs none of its headers. Formats and layouts are the numbers of VkFormat, VkImageLayout.
 // Ownership: the library destroys what it made, and nothing else. What is lent outlives the renderer, or its next
-// set_device(). Thread-safety: pure functions. The queue is used during calls of the renderer only, in which no other
-// thread may use it.
+// set_device(). Thread-safety: pure functions. The queue is used during calls of the renderer only, in which no thread
+// of the caller may use it; renderers made by Renderer::another() take turns at it.
 #pragma once
 
 #include <cstdint>
