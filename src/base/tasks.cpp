@@ -182,6 +182,16 @@ class Gate {
   std::size_t free_;
 };
 
+// Runs a body whose tasks wait, for a device for example, by more threads than cores, so that those that wait are not
+// among those that compute.
+template <class Body>
+void run_with_more_threads(std::size_t more, Body body) {
+  const std::size_t threads = static_cast<std::size_t>(core_count()) + more;
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  oneapi::tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute(body);
+}
+
 }  // namespace
 
 void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<Stage, 3>& stages,
@@ -204,27 +214,25 @@ void staged_pipeline(std::size_t count, std::size_t max_items, const std::array<
     return item;
   };
   std::size_t next = 0;
+  Gate gate(middle_width);
   hand_over(&started);
   const auto first = tbb::make_filter<void, Item>(kInOrder, [&](tbb::flow_control& flow) -> Item {
     if (next < count) return run(0, {next++, nullptr});
     flow.stop();
     return {};
   });
+  const auto middle_mode = middle_width > 1 ? tbb::filter_mode::parallel : kInOrder;
+  const auto second = tbb::make_filter<Item, Item>(middle_mode, [&](Item item) {
+    if (item.data) item = gate.pass([&] { return run(1, std::move(item)); });
+    hand_over(&done[1]);  // the gate, too
+    return item;
+  });
   const auto third = tbb::make_filter<Item, void>(kInOrder, [&](Item item) { run(2, std::move(item)); });
-  if (middle_width <= 1) {
-    const auto second = tbb::make_filter<Item, Item>(kInOrder, [&](Item item) { return run(1, std::move(item)); });
-    tbb::parallel_pipeline(max_items, first & second & third);
-  } else {
-    Gate gate(middle_width);
-    const auto second = tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, [&](Item item) {
-      return item.data ? gate.pass([&] { return run(1, std::move(item)); }) : item;
-    });
-    // Threads that wait are not among those that compute.
-    const std::size_t threads = static_cast<std::size_t>(core_count()) + max_items;
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute([&] { tbb::parallel_pipeline(max_items, first & second & third); });
-  }
+  const auto pass_items = [&] { tbb::parallel_pipeline(max_items, first & second & third); };
+  if (middle_width > 1)
+    run_with_more_threads(max_items, pass_items);
+  else
+    pass_items();
   for (char& token : done) take_over(&token);
 }
 
