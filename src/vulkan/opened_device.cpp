@@ -59,11 +59,10 @@ vk::raii::Pipeline OpenedDevice::compiled(Program program) const {
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device(), vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
-  const bool is_processor = info_.kind == "processor";
   const std::array<std::uint32_t, 5> values{
       static_cast<std::uint32_t>(program.geometry), program.has_picture ? VK_TRUE : VK_FALSE,
-      static_cast<std::uint32_t>(program.interpolation), is_processor ? VK_TRUE : VK_FALSE,
-      is_processor ? kTileGroupOfProcessor : kTileGroup};
+      static_cast<std::uint32_t>(program.interpolation), is_processor_ ? VK_TRUE : VK_FALSE,
+      is_processor_ ? kTileGroupOfProcessor : kTileGroup};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
                            vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),
                            vk::SpecializationMapEntry(kInterpolationConstant, 2 * kSize, kSize),
