@@ -28,6 +28,7 @@ shared vec2 places[256];
 shared float transmissions[256];
 shared float rims[256];
 shared vec2 stops[256];
+shared float iris_distances[256];  // of that point, < 0 inside
 shared vec2 last_stops[256];  // of items with a stop pattern: where the ray crosses the stop last
 #ifdef OCCLUDERS
 shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
@@ -100,10 +101,8 @@ float open_part(vec4 at) {
   return clamp(0.5 - mean / max(abs(slope.x) + abs(slope.y), 1e-12), 0.0, 1.0);
 }
 
-float iris_distance_at(uint k) { return sharp_crossings > 0u ? iris_distance(stops[k]) : -1.0; }
-
 // As blocked().
-float blocked_at(uint k) { return max(rims[k] - 1.0, iris_distance_at(k)); }
+float blocked_at(uint k) { return max(rims[k] - 1.0, iris_distances[k]); }
 
 // The mean transmittance of the item's stop pattern over a cell.
 float transmitted_by(uvec4 v) {
@@ -187,7 +186,7 @@ float squared_sag(uint k) {
   if (has_edge(rim - 1.0))
     squared += squared_edge_sag(k, rim, rims[inside - 1u] - 2.0 * rims[inside] + rims[inside + 1u],
                                 rims[inside - 16u] - 2.0 * rims[inside] + rims[inside + 16u]);
-  vec4 iris = vec4(iris_distance_at(v.x), iris_distance_at(v.y), iris_distance_at(v.z), iris_distance_at(v.w));
+  vec4 iris = vec4(iris_distances[v.x], iris_distances[v.y], iris_distances[v.z], iris_distances[v.w]);
   if (has_edge(iris)) {
     // The iris itself is exact: only what moves its edge along its normal counts.
     vec2 normal = normalize(stops[v.x] + stops[v.y] + stops[v.z] + stops[v.w] + vec2(1e-20));
@@ -325,13 +324,18 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
   vec2 at = box.xy + box.zw * vec2(gl_LocalInvocationID.xy) / float(COARSE_CELLS);
   vec4 ray = trace_ray(at.x, at.y);
   vec2 farthest = stop_points[0];
-  for (uint c = 1u; c < sharp_crossings; ++c)
-    if (iris_distance(stop_points[c]) > iris_distance(farthest)) farthest = stop_points[c];
+  float distance = sharp_crossings > 0u ? iris_distance(farthest) : -1.0;
+  for (uint c = 1u; c < sharp_crossings; ++c) {
+    float here = iris_distance(stop_points[c]);
+    if (here > distance) farthest = stop_points[c];
+    distance = max(distance, here);
+  }
   places[k] = ray.xy;
   if (is_middle) middle_place = ray.xy;
   transmissions[k] = failed(ray) ? -1.0 : ray.z;
   rims[k] = ray.w;
   stops[k] = farthest;
+  iris_distances[k] = distance;
   if (pattern != 0u) last_stops[k] = stop_points[sharp_crossings];
 #ifdef OCCLUDERS
   if (HAS_PICTURE) last_stops[k] = stop_points[crossings_of_group - 1u];
