@@ -268,16 +268,24 @@ float picture_roughness_px(Cell cell) {
 }
 #endif
 
-// The squared part of a cell's density by which a linear function is off.
+// The density of a cell some steps from another along an axis; 0: there is none.
+float density_at(uint k, uint axis, int steps) {
+  int at = int(axis == 0u ? gl_LocalInvocationID.x : gl_LocalInvocationID.y) + steps;
+  return at < 0 || at >= int(COARSE_CELLS) ? 0.0 : densities[uint(int(k) + steps * (axis == 0u ? 1 : 16))];
+}
+
+// The squared part of a cell's density by which a linear function is off. Beside rays that fail, where densities change
+// most, it is taken from two cells on the other side.
 float squared_bend(uint k) {
-  float sum = 0.0;
+  float sum = 0.0, here = densities[k];
   for (uint axis = 0u; axis < 2u; ++axis) {
-    uint step_by = axis == 0u ? 1u : 16u, at = axis == 0u ? gl_LocalInvocationID.x : gl_LocalInvocationID.y;
-    if (at == 0u || at + 1u >= COARSE_CELLS) continue;
-    float before = densities[k - step_by], here = densities[k], after = densities[k + step_by];
-    if (before == 0.0 || after == 0.0) continue;
-    float change = (before - 2.0 * here + after) / here;
-    if (before * here < 0.0 || after * here < 0.0) change = BOUND_LARGEST_DENSITY_CHANGE;
+    float before = density_at(k, axis, -1), after = density_at(k, axis, 1);
+    vec3 three = before == 0.0  ? vec3(here, after, density_at(k, axis, 2))
+                 : after == 0.0 ? vec3(density_at(k, axis, -2), before, here)
+                                : vec3(before, here, after);
+    if (three.x == 0.0 || three.y == 0.0 || three.z == 0.0) continue;
+    float change = (three.x - 2.0 * three.y + three.z) / here;
+    if (three.x * here < 0.0 || three.y * here < 0.0 || three.z * here < 0.0) change = BOUND_LARGEST_DENSITY_CHANGE;
     change = clamp(change, -BOUND_LARGEST_DENSITY_CHANGE, BOUND_LARGEST_DENSITY_CHANGE);
     sum += change * change / 64.0;
   }
@@ -292,6 +300,30 @@ float part_in_frame(uint k) {
   vec2 inside = clamp(min(high, vec2(p.width, p.height)) - max(low, vec2(0.0)), vec2(0.0), high - low);
   vec2 part = inside / max(high - low, vec2(1e-6));
   return part.x * part.y;
+}
+
+// Squared errors of a cell of which some rays fail and others carry light, which is drawn in part only: as of a cell
+// beside it with a quarter of the light. gain: of the item.
+float squared_light_beside_failing(uint k, float gain) {
+  if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return 0.0;
+  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+  bool any_fails = false, any_open = false;
+  for (int j = 0; j < 4; ++j) {
+    bool fails = transmissions[v[j]] < 0.0;
+    any_fails = any_fails || fails;
+    any_open = any_open || (!fails && blocked_at(v[j]) <= 0.0);
+  }
+  if (!any_fails || !any_open) return 0.0;
+  float largest_error = 0.0;
+  for (int side = 0; side < 4; ++side) {
+    int steps = (side & 1) * 2 - 1;
+    float value = gain * density_at(k, uint(side) >> 1u, steps);
+    if (value == 0.0) continue;
+    uint other = uint(int(k) + steps * (side < 2 ? 1 : 16));
+    float area = 0.5 * abs(cross2(places[other + 17u] - places[other], places[other + 16u] - places[other + 1u]));
+    largest_error = max(largest_error, value * value * area * part_in_frame(other));
+  }
+  return 0.25 * largest_error;
 }
 
 // Overlapping ghosts count one by one: the peak is not overestimated. A bin that has as much as is wanted need not be
@@ -349,7 +381,7 @@ void trace_corner(uint item, bool is_middle, vec4 box) {
 
 // Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie
 // elsewhere.
-vec4 sum_errors(Cell cell, float value, float inside_frame) {
+vec4 sum_errors(Cell cell, float value, float inside_frame, float gain) {
   uint k = gl_LocalInvocationIndex;
   vec2 moved = places[k] - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
@@ -368,6 +400,7 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
                               : inside_frame * vec4(value * value * inside, value * value * merged,
                                                     cell.flux * cell.open, area * cell.open);
+  sums_of[k].x += squared_light_beside_failing(k, gain);
   sum_up();
   vec4 all = sums_of[0];
   barrier();
@@ -433,10 +466,10 @@ void measure(uint item, bool is_middle, vec4 box) {
   if (is_middle) middle_density = cell.density;
   barrier();
   vec3 gain = item_gain(item);
-  float value = cell.density * sqrt(dot(gain, gain) / 3.0);
+  float mean_gain = sqrt(dot(gain, gain) / 3.0), value = cell.density * mean_gain;
   float inside_frame = cell.is_drawn ? part_in_frame(k) : 0.0;
   if (cell.is_drawn) add_to_histogram(abs(cell.area_px) * cell.open * inside_frame, cell, gain);
-  vec4 all = sum_errors(cell, value, inside_frame);
+  vec4 all = sum_errors(cell, value, inside_frame, mean_gain);
   vec2 edges = sum_edge_errors(cell, value, inside_frame);
   vec2 other = compare_with_middle(cell, value, inside_frame);
   float extent = find_extent(cell);
