@@ -219,7 +219,7 @@ class VulkanDevice final : public FrameDevice {
   // unless only memory was short, which is the context's.
   template <class Work>
   [[nodiscard]] Result<void> guarded(const Work& work) {
-    std::string message;
+    std::string message, instead = "--device cpu";
     try {
       work();
       return {};
@@ -228,6 +228,7 @@ class VulkanDevice final : public FrameDevice {
       source_->abandon(opened_);
     } catch (const vk::OutOfDeviceMemoryError& error) {
       message = fmt::format("its memory does not suffice ({})", error.what());
+      if (opened_ && opened_->contexts() > 1) instead = "--frames-in-flight 1, or --device cpu";
     } catch (const vk::DeviceLostError& error) {
       message = fmt::format("it was lost ({})", error.what());
       fail_device();
@@ -238,8 +239,8 @@ class VulkanDevice final : public FrameDevice {
     drop_context();
     if (options_.lent)
       return failure(ErrorCode::Unsupported, fmt::format("the lent device ({}) failed: {}", info_.name, message));
-    return failure(ErrorCode::Unsupported, fmt::format("device {} ({}) failed: {}; render with --device cpu",
-                                                       info_.index, info_.name, message));
+    return failure(ErrorCode::Unsupported,
+                   fmt::format("device {} ({}) failed: {}; render with {}", info_.index, info_.name, message, instead));
   }
 
   std::shared_ptr<DeviceSource> source_;

@@ -165,6 +165,18 @@ TEST_CASE("a device that fails in one flight fails it alone or others too, and a
   test::messages().clear();  // the layer may report what was left behind
 }
 
+TEST_CASE("if memory does not suffice for several flights, the error says how to have one") {
+  Failing failing;
+  Flights flights(2, failing.options());
+  if (!flights.is_there()) return;
+  failing.kind = 1;
+  failing.left = 0;
+  const auto failed = flights.draw(0, flight_scenes().front());
+  REQUIRE(!failed.has_value());
+  CHECK(failed.error().message.find("--frames-in-flight 1") != std::string::npos);
+  test::check_no_messages();
+}
+
 TEST_CASE("a failed flight with auto is drawn by the CPU, and its sibling goes on") {
   Failing failing;
   Flights flights(2, failing.options());
