@@ -140,8 +140,8 @@ std::uint64_t AdaptiveFrame::sums_bytes() const {
 void AdaptiveFrame::need_buffers() {
   const std::uint64_t groups = job_.groups.size(), items = job_.items.size();
   const auto pixels = static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  device_.need(Slot::Boxes, kBoxBytes * kSearchLevels.size() * groups);
-  device_.need(Slot::Found, kFoundBytes * kSearchLevels.size() * groups);
+  device_.need(Slot::Boxes, kBoxBytes * kSearchBoxes * groups);
+  device_.need(Slot::Found, kFoundBytes * kSearchBoxes * groups);
   device_.need(Slot::States, kStateBytes * items);
   device_.need(Slot::Offsets, sizeof(std::uint32_t) * (items + 1));
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
@@ -168,7 +168,7 @@ void AdaptiveFrame::need_buffers() {
 
 // Clears the buffers that the search counts into.
 void AdaptiveFrame::clear_search() {
-  device_.clear(Slot::Found, 0, kFoundBytes * kSearchLevels.size() * job_.groups.size());
+  device_.clear(Slot::Found, 0, kFoundBytes * kSearchBoxes * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
   device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }

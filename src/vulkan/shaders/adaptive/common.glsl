@@ -9,7 +9,7 @@
 #define ITEM_WORDS 24u
 #define GROUP_WORDS 4u
 #define STATE_WORDS 24u
-#define LEVELS 6u  // of the search for the pupil, at most
+#define LEVELS 6u  // of the search for the pupil, with those of two wavelengths
 
 layout(std430, set = 0, binding = 15) readonly buffer Groups { uint groups[]; };
 // By group and level: the box that is searched, lower corner and size, mm from the window's lower corner; and the bounds
@@ -121,31 +121,30 @@ vec3 state_gain(uint item, vec2 at) {
 #define LAST_LEVEL 3u  // of the search
 #define ALL_ITEMS_LEVEL 2u  // from which on it is at the wavelengths of all items, whose pupils may lie beside each other
 #define SCANS 4u  // workgroups that scan a group's meridian, at the first level
-// Further levels follow the first one: they scan the meridian at a group's first and last wavelengths if light passes at
-// no other.
-#define FIRST_ITEM_LEVEL 4u
-#define LAST_ITEM_LEVEL 5u
-#define ITEM_SCANS 2u  // workgroups that scan it
-bool searches_window(uint level) { return level == 0u || level > LAST_LEVEL; }
+// A further level follows the first one: it scans the meridian at a group's first and last wavelengths if light passes at
+// no other. Its boxes and bounds are two, for each of them.
+#define OUTER_LEVEL 4u
+#define OUTER_SCANS 2u  // workgroups that scan it
+bool searches_window(uint level) { return level == 0u || level >= OUTER_LEVEL; }
 uint search_blocks_a_side(uint level) { return searches_window(level) ? p.window_blocks : level == 1u ? 2u : 1u; }
 uint search_blocks(uint level) {
-  if (level > LAST_LEVEL) return ITEM_SCANS;
+  if (level == OUTER_LEVEL) return 2u * OUTER_SCANS;
   return search_blocks_a_side(level) * search_blocks_a_side(level) + (level == 0u ? SCANS : 0u);
 }
 uint cells_of_level(uint level) { return COARSE_CELLS * search_blocks_a_side(level); }
 
 bool passes_at_level(uint group, uint level) { return found[8u * (group * LEVELS + level) + 2u] > 0u; }
-// The level that found light first.
+// The level that found light first; OUTER_LEVEL + 1: it did so at the last wavelength.
 uint first_level(uint group) {
-  for (uint level = FIRST_ITEM_LEVEL; level <= LAST_ITEM_LEVEL; ++level)
+  for (uint level = OUTER_LEVEL; level < LEVELS; ++level)
     if (!passes_at_level(group, 0u) && passes_at_level(group, level)) return level;
   return 0u;
 }
 uint item_of_first_level(uint group, uint level) {
   uint first = group_word(group, 0u);
-  return level == 0u                 ? group_word(group, 2u)
-         : level == FIRST_ITEM_LEVEL ? first
-                                     : first + group_word(group, 1u) - 1u;
+  return level == 0u            ? group_word(group, 2u)
+         : level == OUTER_LEVEL ? first
+                                : first + group_word(group, 1u) - 1u;
 }
 
 // The number of cells within bounds.

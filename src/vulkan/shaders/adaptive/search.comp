@@ -11,7 +11,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "../stop/pattern_record.glsl"
 
 #define SCAN_REACH 0.5       // cells on each side of a hit
-#define ITEM_SCAN_REACH 4.0  // where no grid has been searched
+#define OUTER_SCAN_REACH 4.0  // where no grid has been searched
 #define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction
 
 shared float heights[256];  // relative height - 1, FAILED where a ray fails
@@ -127,25 +127,20 @@ void scan_meridian(uint item, vec4 box, uint cells, uint part, uint parts, float
   report(PASSES, cell - reach_cells, cell + reach_cells, cells);
 }
 
-// Whether a level has nothing to do, as another one has found light before, or at the same wavelength.
-bool is_needless(uint group, uint item) {
-  if (p.level <= LAST_LEVEL) return false;
-  return item == group_word(group, 2u) || passes_at_level(group, 0u) ||
-         (p.level == LAST_ITEM_LEVEL && passes_at_level(group, FIRST_ITEM_LEVEL));
-}
-
 void main() {
   uint cells = cells_of_level(p.level), blocks = search_blocks(p.level);
   uint group = linear_group() / blocks, block = linear_group() % blocks;
   if (group >= p.group_count) return;
-  uint item = item_of_first_level(group, searches_window(p.level) ? p.level : first_level(group));
-  if (is_needless(group, item)) return;
-  uint at_level = group * LEVELS + p.level, k = gl_LocalInvocationIndex;
-  vec4 box = searches_window(p.level) ? vec4(0.0, 0.0, item_window(item)) : box_of_level(group, p.level);
-  if (block == 0u && k == 0u) boxes[at_level] = box;
+  bool is_outer = p.level == OUTER_LEVEL;
+  uint level = is_outer ? OUTER_LEVEL + block / OUTER_SCANS : p.level;
+  uint item = item_of_first_level(group, searches_window(level) ? level : first_level(group));
+  if (is_outer && (item == group_word(group, 2u) || passes_at_level(group, 0u))) return;
+  uint at_level = group * LEVELS + level, k = gl_LocalInvocationIndex;
+  vec4 box = searches_window(level) ? vec4(0.0, 0.0, item_window(item)) : box_of_level(group, level);
+  if (block % (is_outer ? OUTER_SCANS : blocks) == 0u && k == 0u) boxes[at_level] = box;
   if (!(box.z > 0.0)) return;
-  if (!searches_window(p.level) && p.level < LAST_LEVEL) {
-    vec4 before = boxes[p.level == 1u ? group * LEVELS + first_level(group) : at_level - 1u];
+  if (!searches_window(level) && level < LAST_LEVEL) {
+    vec4 before = boxes[level == 1u ? group * LEVELS + first_level(group) : at_level - 1u];
     if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
       if (block == 0u && k < 4u) found[8u * at_level + k] = cells;
       return;
@@ -153,11 +148,11 @@ void main() {
   }
   if (k < 8u) bounds_found[k] = 0u;
   uint grid_blocks = cells * cells / (COARSE_CELLS * COARSE_CELLS);
-  if (p.level > LAST_LEVEL) {
-    scan_meridian(item, box, cells, block, blocks, ITEM_SCAN_REACH);
+  if (is_outer) {
+    scan_meridian(item, box, cells, block % OUTER_SCANS, OUTER_SCANS, OUTER_SCAN_REACH);
   } else if (block >= grid_blocks) {
     scan_meridian(item, box, cells, block - grid_blocks, SCANS, SCAN_REACH);
-  } else if (p.level < ALL_ITEMS_LEVEL) {
+  } else if (level < ALL_ITEMS_LEVEL) {
     search_block(item, box, cells, block);
   } else {
     uint first = group_word(group, 0u), end = first + group_word(group, 1u);
