@@ -16,7 +16,7 @@ namespace contrejour::inline internal::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr std::uint32_t kGroupSize = 64;
+constexpr std::uint32_t kGroupSize = 256, kSharedBytes = 20 << 10U;  // of the largest shader (adaptive/measure.comp)
 constexpr std::uint64_t kSmallestRange = std::uint64_t{64} << 20U;
 constexpr std::uint32_t kFewestTexels = 1U << 24U;
 
@@ -50,9 +50,12 @@ std::string reason_against(const vk::raii::PhysicalDevice& device, const vk::Phy
           std::min(limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers);
       most < kSlots)
     return fmt::format("its shaders take {} buffers, and {} are needed", most, kSlots);
-  if (limits.maxComputeWorkGroupInvocations < kGroupSize)
-    return fmt::format("its workgroups hold {} invocations, and {} are needed", limits.maxComputeWorkGroupInvocations,
-                       kGroupSize);
+  if (const std::uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
+      most < kGroupSize)
+    return fmt::format("its workgroups hold {} invocations, and {} are needed", most, kGroupSize);
+  if (limits.maxComputeSharedMemorySize < kSharedBytes)
+    return fmt::format("its workgroups share {} bytes of memory, and {} are needed", limits.maxComputeSharedMemorySize,
+                       kSharedBytes);
   if (limits.maxStorageBufferRange < kSmallestRange)
     return fmt::format("its buffers end at {} MiB, and {} MiB are needed", limits.maxStorageBufferRange >> 20U,
                        kSmallestRange >> 20U);

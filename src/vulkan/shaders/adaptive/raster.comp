@@ -115,6 +115,7 @@ void draw_some(uint from, uint end, ivec2 at) {
 
 // A number of the tile's plane and of that of a pixel's quarter, exactly.
 uvec2 plane_word(uint k, ivec2 at) {
+  if (!BY_COLUMN) return uvec2(plane_sums[k], plane_sums[k + 1u]);
   uint of_quarter = PLANE_WORDS * uint(1 + at.x / QUARTER_SIDE + 2 * (at.y / QUARTER_SIDE)) + k;
   return add_words(uvec2(plane_sums[k], plane_sums[k + 1u]), uvec2(plane_sums[of_quarter], plane_sums[of_quarter + 1u]));
 }
