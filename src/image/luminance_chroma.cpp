@@ -127,7 +127,10 @@ Image rgb_of_luminance_chroma(const Picture& picture) {
   const Imath::Box2i box({window.x, window.y}, {window.x + window.width - 1, window.y + window.height - 1});
   Imf::Header header(box, box);
   header.compression() = Imf::NO_COMPRESSION;
-  Imf::addChromaticities(header, chromaticities_of(picture));
+  const Imf::Chromaticities chromaticities = chromaticities_of(picture);
+  // Throws where they give no weights of luminance. RgbaInputFile would throw, too, and leak its file.
+  static_cast<void>(Imf::RgbaYca::computeYw(chromaticities));
+  Imf::addChromaticities(header, chromaticities);
   Imf::FrameBuffer frame_buffer;
   const auto channels = channels_of(picture);
   std::array<std::vector<std::byte>, 3> halves;
