@@ -114,7 +114,7 @@ TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and hav
   test::check_no_messages();
 }
 
-TEST_CASE("a frame whose rays do not fit into a buffer is drawn in parts") {
+TEST_CASE("a frame whose rays do not fit into a buffer is drawn in parts [slow]") {
   OnDevice device({.most_buffer_bytes = 1U << 20U});
   if (!device.kept.device) return;
   const LensState lens = lens_of("heliar", 7, 8.0);

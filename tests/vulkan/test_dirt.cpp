@@ -45,7 +45,7 @@ TEST_CASE("adaptive draws shadows of dirt in the stop and on the front on the de
   test::check_no_messages();
 }
 
-TEST_CASE("adaptive draws shadows of dirt on the front for two lights, one of them near, on the device") {
+TEST_CASE("adaptive draws shadows of dirt on the front for two lights, one of them near, on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   std::vector<Light> lights = kTwoLights;
@@ -57,7 +57,7 @@ TEST_CASE("adaptive draws shadows of dirt on the front for two lights, one of th
 
 // With two wavelengths the red of Rec.709 is a small difference of both, since the gain of the shorter one is negative:
 // its own relative error says little. In ACEScg no gain is negative, so that every channel shows the fluxes' errors.
-TEST_CASE("the fluxes of two wavelengths and two lights are right on the device, with dirt and without") {
+TEST_CASE("the fluxes of two wavelengths and two lights are right on the device, with dirt and without [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   const LensState dirty = dirty_lens(dust_and_scratches(DirtPlane::Stop), 8.0);
@@ -83,7 +83,7 @@ TEST_CASE("the fluxes of two wavelengths and two lights are right on the device,
   test::check_no_messages();
 }
 
-TEST_CASE("adaptive draws a picture of dirt on the device") {
+TEST_CASE("adaptive draws a picture of dirt on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   Dirt dirt;
@@ -94,7 +94,7 @@ TEST_CASE("adaptive draws a picture of dirt on the device") {
   test::check_no_messages();
 }
 
-TEST_CASE("adaptive draws fringes of the iris with a picture of dirt on the device") {
+TEST_CASE("adaptive draws fringes of the iris with a picture of dirt on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   Dirt dirt;
@@ -118,7 +118,7 @@ TEST_CASE("dirt with fringes is left to the CPU") {
   CHECK(flare.statistics.device.find("dirt with ringing is drawn by the CPU") != std::string::npos);
 }
 
-TEST_CASE("dirt of other frames leaves no trace on the device") {
+TEST_CASE("dirt of other frames leaves no trace on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   const auto light = std::span(kTwoLights).first(1);

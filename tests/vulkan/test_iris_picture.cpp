@@ -35,7 +35,7 @@ void check_picture(const Dirt& dirt = {}, const RingingOptions& ringing = {}) {
 TEST_CASE("adaptive draws a picture as the iris on the device") { check_picture(); }
 
 // The CPU's `adaptive` is off by a per cent of flux with half-tones, so that `bundle` is what the device is compared with.
-TEST_CASE("adaptive draws a picture with half-tones as the iris on the device") {
+TEST_CASE("adaptive draws a picture with half-tones as the iris on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   const LensState lens = star_lens(true, 8.0);
@@ -49,7 +49,7 @@ TEST_CASE("adaptive draws a picture with half-tones as the iris on the device") 
   test::check_no_messages();
 }
 
-TEST_CASE("adaptive draws a picture as the iris with one pattern of fringes on the device") {
+TEST_CASE("adaptive draws a picture as the iris with one pattern of fringes on the device [slow]") {
   check_picture({}, {.mode = RingingMode::Hullin});
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("a picture as the iris with Fresnel's fringes is left to the CPU") {
   CHECK(flare.statistics.device.find("Fresnel's fringes is drawn by the CPU") != std::string::npos);
 }
 
-TEST_CASE("adaptive draws a picture as the iris with dirt in the stop on the device") {
+TEST_CASE("adaptive draws a picture as the iris with dirt in the stop on the device [slow]") {
   Dirt dirt;
   dirt.dust_per_cm2 = 20.0;
   dirt.dust_mm = 0.5;

@@ -50,7 +50,7 @@ TEST_CASE("adaptive draws fringes of a round iris, and of two lights, on the dev
   test::check_no_messages();
 }
 
-TEST_CASE("adaptive draws the pattern of a fractional Fourier transform on the device") {
+TEST_CASE("adaptive draws the pattern of a fractional Fourier transform on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   const LensState lens = lens_of("heliar", 6, 11.0);

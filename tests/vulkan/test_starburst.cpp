@@ -127,7 +127,7 @@ TEST_CASE("the patterns on the device are those of the frame's own lens and ligh
   CHECK(frame_by(AdaptiveOptions{}, one, light, settings, device.cache).image.pixels == first.image.pixels);
 }
 
-TEST_CASE("starbursts that the device cannot add are added by the CPU") {
+TEST_CASE("starbursts that the device cannot add are added by the CPU [slow]") {
   const LensState lens = lens_of("heliar", 5, 8.0);
   const FrameSettings settings = starburst_settings(lens, 64, 36);
   OnDevice device, small({.most_buffer_bytes = 1U << 21U});
