@@ -34,7 +34,8 @@ void check_picture(const Dirt& dirt = {}, const RingingOptions& ringing = {}) {
 
 TEST_CASE("adaptive draws a picture as the iris on the device") { check_picture(); }
 
-// The CPU's `adaptive` is off by a per cent of flux with half-tones, so that `bundle` is what the device is compared with.
+// The CPU's `adaptive` is off by a per cent of flux with half-tones, so that `bundle` is what the device is compared
+// with.
 TEST_CASE("adaptive draws a picture with half-tones as the iris on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
