@@ -32,7 +32,7 @@ class OpenedDevice {
   [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return properties_.limits; }
   [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
   [[nodiscard]] double tick_ns() const { return tick_ns_; }  // of the queue's clock; 0: it has none
-  // Those of all buffers, and of the path.
+  // The layouts of the set of all buffers, and of that of the path.
   [[nodiscard]] std::array<vk::DescriptorSetLayout, 2> set_layouts() const { return {*set_layout_, *path_layout_}; }
   [[nodiscard]] vk::PipelineLayout pipeline_layout() const { return *pipeline_layout_; }
 

@@ -90,7 +90,7 @@ std::vector<Pixels> alone(const std::vector<FlightScene>& scenes) {
   return pixels;
 }
 
-// What became of a frame.
+// The end of a frame.
 enum class Ending { Same, Different, Error };
 
 Ending ending_of(const Result<Flare>& flare, const Pixels& wanted) {

@@ -3,14 +3,14 @@
 // planes are integers; the values of others are split into multiples of a coarse and of a fine unit.
 #define PLANE_WORDS 18u
 shared uint tile_sums[TILE_WORDS];
-// Of polygons that cover the tile, then of those that cover each of its quarters: value at the tile's first pixel,
-// slopes, by channel.
+// The sums of polygons that cover the tile, then of those that cover each of its quarters: value at the tile's first
+// pixel, slopes, by channel.
 shared uint plane_sums[5u * PLANE_WORDS];
 float fixed_units;  // a unit of pixel value
 ivec2 tile_low;     // its first pixel
 
 #define ROWS 8  // of a column
-// Of an invocation's pixel; on processors of the pixels of its column.
+// The sums of an invocation's pixel; on processors of the pixels of its column.
 vec3 coarse_sum[ROWS], fine_sum[ROWS];
 float coarse_shift, fine_shift;  // 1.5 * 2^23 units: adding one rounds to a whole number of units
 
