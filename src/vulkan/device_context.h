@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that a frame in flight owns on an opened device, from frame to frame: commands, descriptors, buffers. Contexts of one
-// device share no memory, so that the device may draw the frames of several at once.
-// Failures are exceptions of vulkan.hpp, or Hang; the caller turns them into error values.
-// Thread-safety: one thread at a time uses a context; several threads may each use one of the same device.
+// All that a frame in flight owns on an opened device, from frame to frame: commands, descriptors, buffers. Contexts of
+// one device share no memory, so that the device may draw the frames of several at once. Failures are exceptions of
+// vulkan.hpp, or Hang; the caller turns them into error values. Thread-safety: one thread at a time uses a context;
+// several threads may each use one of the same device.
 #pragma once
 
 #include <array>
