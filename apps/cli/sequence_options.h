@@ -70,7 +70,7 @@ struct SettingsRecord {
 [[nodiscard]] FrameFiles frame_files(SettingsRecord settings, const std::string& input,
                                      std::span<const std::string> outputs);
 
-// The options with which frames are worked through if so many renderers draw at once.
+// The options of run_frames() for a number of renderers, which draw as many frames at once.
 [[nodiscard]] RunFramesOptions run_options(const SequenceOptions& options, int renderers);
 
 // Leaves out the frames that are done; says how many.

@@ -8,12 +8,13 @@
 namespace contrejour::inline internal::vulkan {
 
 // The levels of the search for pupils, in their order; the number of boxes and bounds of a group (LEVELS).
-inline constexpr std::array<std::uint32_t, 5> kSearchLevels{0, 4, 1, 2, 3};
+inline constexpr std::uint32_t kOuterLevel = 4;  // OUTER_LEVEL
+inline constexpr std::array<std::uint32_t, 5> kSearchLevels{0, kOuterLevel, 1, 2, 3};
 inline constexpr std::uint32_t kSearchBoxes = 6;
 // search_blocks(): the workgroups of a group.
 [[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks) {
   constexpr std::uint32_t kScans = 4, kOuterScans = 4;
-  return level == 0 ? window_blocks * window_blocks + kScans : level == 4 ? kOuterScans : level == 1 ? 4 : 1;
+  return level == 0 ? window_blocks * window_blocks + kScans : level == kOuterLevel ? kOuterScans : level == 1 ? 4 : 1;
 }
 
 // The parameters of a dispatch: the shaders' push constants, in their order.

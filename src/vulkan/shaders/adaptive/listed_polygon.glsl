@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A polygon that cells.comp or cut.comp have listed, and its value in a pixel. Its edges are taken in fours rather than
-// in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so that the last polygons of crowded tiles
-// would be missing.
+// A polygon that cells.comp, merge.comp or cut.comp have listed, and its value in a pixel. Its edges are taken in fours
+// rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so that the last polygons of
+// crowded tiles would be missing.
 
 // The part of a line that lies in a pixel.
 float part_in_pixel(vec2 from, vec2 to) {

@@ -9,6 +9,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "item_path.glsl"
 #include "../iris.glsl"
 #include "../stop/pattern.glsl"
+#include "group_sums.glsl"
 #ifdef OCCLUDERS
 #include "../coverage.glsl"
 #include "front.glsl"
@@ -34,53 +35,7 @@ shared vec2 last_stops[256];  // of items with a stop pattern: where the ray cro
 shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
 #endif
 shared float densities[256];  // of cells, with the sign of their area; 0: none
-shared vec4 sums_of[256];
 shared uint histogram[BINS];
-
-// The sum of sums_of[], or the largest by component, into sums_of[0], in two steps: processors pass barriers slowly,
-// and all invocations wait for a loop that is unrolled.
-void reduce_in_steps(bool takes_largest) {
-  uint t = gl_LocalInvocationIndex;
-  barrier();
-  for (uint step_by = 16u; step_by > 0u; step_by /= 16u) {
-    if (t < step_by) {
-      vec4 all = sums_of[t];
-      [[dont_unroll]] for (uint k = t + step_by; k < 16u * step_by; k += step_by) {
-        vec4 one = sums_of[k];
-        all = takes_largest ? max(all, one) : all + one;
-      }
-      sums_of[t] = all;
-    }
-    barrier();
-  }
-}
-
-void sum_up() {
-  if (ON_PROCESSOR) {
-    reduce_in_steps(false);
-    return;
-  }
-  barrier();
-  for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
-    if (gl_LocalInvocationIndex < half_count)
-      sums_of[gl_LocalInvocationIndex] += sums_of[gl_LocalInvocationIndex + half_count];
-    barrier();
-  }
-}
-
-void largest() {
-  if (ON_PROCESSOR) {
-    reduce_in_steps(true);
-    return;
-  }
-  barrier();
-  for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
-    if (gl_LocalInvocationIndex < half_count)
-      sums_of[gl_LocalInvocationIndex] =
-          max(sums_of[gl_LocalInvocationIndex], sums_of[gl_LocalInvocationIndex + half_count]);
-    barrier();
-  }
-}
 
 uint crossings_of_group = 0u;
 uint pattern = 0u;          // of the item

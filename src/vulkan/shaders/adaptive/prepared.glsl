@@ -20,7 +20,7 @@ shared uint edge_bits_of_polygons[32];
 #ifdef OCCLUDERS
 shared uint pattern_words[32];  // a pattern's number, and that of the last crossing
 
-// The same of a prepared polygon.
+// The product of a prepared polygon's transmittances, as product_at().
 float prepared_product_at(uint j, vec2 place, float size) {
   uint mask = patterns_of_polygons[j], pattern = pattern_words[j], last = pattern >> LAST_SHIFT;
   uint map = POLYGON_MAP_CORNERS * j;
