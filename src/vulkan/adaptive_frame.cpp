@@ -2,7 +2,9 @@
 #include "vulkan/adaptive_frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "base/tasks.h"
@@ -116,10 +118,13 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   const std::vector<float> bounds = bound_numbers(job_.iris);
   device_.upload(Slot::Starts, starts);
   device_.upload(Slot::Bounds, bounds);
-  device_.upload(Slot::Items, items);
-  device_.upload(Slot::Groups, groups);
+  std::vector<std::uint32_t> words;
+  words.reserve(kItemWords * items.size() + kGroupWords * groups.size());
+  for (const ItemRecord& item : items) std::ranges::copy(std::bit_cast<ItemWords>(item), std::back_inserter(words));
+  for (const GroupRecord& group : groups) std::ranges::copy(std::bit_cast<GroupWords>(group), std::back_inserter(words));
+  device_.upload(Slot::Items, words);
   work_.uploaded_bytes +=
-      4 * (starts.size() + bounds.size()) + sizeof(ItemRecord) * items.size() + sizeof(GroupRecord) * groups.size();
+      4 * (starts.size() + bounds.size() + words.size());
   parameters_.bound_count = narrow(bounds.size() / 8);
 }
 
@@ -140,10 +145,8 @@ std::uint64_t AdaptiveFrame::sums_bytes() const {
 void AdaptiveFrame::need_buffers() {
   const std::uint64_t groups = job_.groups.size(), items = job_.items.size();
   const auto pixels = static_cast<std::uint64_t>(parameters_.width) * static_cast<std::uint64_t>(parameters_.height);
-  device_.need(Slot::Boxes, kBoxBytes * kSearchBoxes * groups);
-  device_.need(Slot::Found, kFoundBytes * kSearchBoxes * groups);
-  device_.need(Slot::States, kStateBytes * items);
-  device_.need(Slot::Offsets, sizeof(std::uint32_t) * (items + 1));
+  device_.need(Slot::Found, kFoundBytes * kSearchLevelsKept * groups);
+  device_.need(Slot::States, kStateBytes * (items + 1));
   device_.need(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   device_.need(Slot::Rays, kRayBytes * capacity_.rays);
   device_.need(Slot::Crossings, kCrossingBytes * capacity_.rays);
@@ -168,7 +171,7 @@ void AdaptiveFrame::need_buffers() {
 
 // Clears the buffers that the search counts into.
 void AdaptiveFrame::clear_search() {
-  device_.clear(Slot::Found, 0, kFoundBytes * kSearchBoxes * job_.groups.size());
+  device_.clear(Slot::Found, 0, kFoundBytes * kSearchLevelsKept * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
   device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }
@@ -190,7 +193,7 @@ void AdaptiveFrame::search() {
   const std::uint64_t groups = job_.groups.size();
   for (const std::uint32_t level : kSearchLevels) {
     dispatch_at(level, {Shader::AdaptiveSearch, geometry_},
-                rows_of(groups * search_blocks(level, parameters_.window_blocks)));
+                rows_of(groups * search_blocks(level, parameters_.window_blocks, job_.has_axial_symmetry)));
     device_.barrier();
   }
   device_.end_stage("pupils");
@@ -338,7 +341,7 @@ std::int32_t AdaptiveFrame::small_px() const { return job_.patterns || job_.dirt
 
 std::uint32_t AdaptiveFrame::flags() const {
   const std::uint32_t bits = (job_.iris.is_circle() ? kCircle : 0U) | (job_.iris.has_half_tones() ? kHalfTones : 0U);
-  return bits | dirt_flags(job_.dirt.get());
+  return bits | dirt_flags(job_.dirt.get()) | (job_.has_axial_symmetry ? kSymmetric : 0U);
 }
 
 // Dim ghosts, which many cells do not better, have fluxes that are off by per cents with 8 cells a side, and by tenths

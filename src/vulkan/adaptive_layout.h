@@ -7,15 +7,23 @@
 
 namespace contrejour::inline internal::vulkan {
 
-// The levels of the search for pupils, in their order; the number of boxes and bounds of a group (LEVELS).
+// The levels of the search for pupils, in their order; the number of those whose boxes and bounds are kept (LEVELS).
 inline constexpr std::uint32_t kOuterLevel = 4;  // OUTER_LEVEL
 inline constexpr std::array<std::uint32_t, 5> kSearchLevels{0, kOuterLevel, 1, 2, 3};
-inline constexpr std::uint32_t kSearchBoxes = 6;
+inline constexpr std::uint32_t kSearchLevelsKept = 6;
 // search_blocks(): the workgroups of a group.
-[[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks) {
+[[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks,
+                                                    bool is_symmetric) {
   constexpr std::uint32_t kScans = 4, kOuterScans = 4;
-  return level == 0 ? window_blocks * window_blocks + kScans : level == kOuterLevel ? kOuterScans : level == 1 ? 4 : 1;
+  const auto blocks = [&](std::uint32_t a_side) { return a_side * (is_symmetric ? (a_side + 1) / 2 : a_side); };
+  return level == 0             ? blocks(window_blocks) + kScans
+         : level == kOuterLevel ? kOuterScans
+         : level == 1           ? blocks(2)
+                                : 1;
 }
+
+// A bit of the flags, besides those of stop_layout.h: FLAG_SYMMETRIC.
+inline constexpr std::uint32_t kSymmetric = 256;
 
 // The parameters of a dispatch: the shaders' push constants, in their order.
 struct AdaptiveParameters {
@@ -43,13 +51,18 @@ struct ItemRecord {
   std::array<float, 3> gain_by_x{}, gain_by_y{};
   std::array<float, 2> middle_mm{};
 };
-static_assert(sizeof(ItemRecord) == 96);
+inline constexpr std::size_t kItemWords = 24;  // ITEM_WORDS
+using ItemWords = std::array<std::uint32_t, kItemWords>;
+static_assert(sizeof(ItemRecord) == sizeof(ItemWords));
 
 struct GroupRecord {
   std::uint32_t first = 0, count = 0, middle = 0, unused = 0;
 };
+inline constexpr std::size_t kGroupWords = 4;  // a texel
+using GroupWords = std::array<std::uint32_t, kGroupWords>;
+static_assert(sizeof(GroupRecord) == sizeof(GroupWords));
 
-inline constexpr std::uint64_t kBoxBytes = 16, kFoundBytes = 32, kStateBytes = 96, kCutBytes = 8,
+inline constexpr std::uint64_t kFoundBytes = 48, kStateBytes = 96, kCutBytes = 8,
                                kHistogramBytes = 4096;
 inline constexpr std::uint32_t kRaysABlock = 64;
 inline constexpr std::uint32_t kMergedOfRays = 4;  // BLOCKS_OF_RAYS

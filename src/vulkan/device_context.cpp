@@ -18,7 +18,6 @@ Residence residence_of(std::size_t slot) {
     case Slot::Bounds:
     case Slot::Items:
     case Slot::Starts:
-    case Slot::Groups:
     case Slot::Patterns:
     case Slot::Starbursts:
     case Slot::Dirt: return Residence::Upload;

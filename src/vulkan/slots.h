@@ -27,11 +27,8 @@ enum class Slot : std::uint8_t {
   Doubles,
   Vertices,
   Items,
-  Groups,
-  Boxes,
   Found,
   States,
-  Offsets,
   CutCells,
   TileCounts,
   TileFirst,
@@ -44,7 +41,7 @@ enum class Slot : std::uint8_t {
   Dirt,
   Starbursts,
 };
-inline constexpr std::size_t kSlots = 31;
+inline constexpr std::size_t kSlots = 28;
 
 // Slots that shaders also read as texels; their bindings follow the slots'.
 struct TexelSlot {
@@ -66,7 +63,7 @@ inline constexpr std::array kTexelSlots{TexelSlot{Slot::Tables, vk::Format::eR32
                                         TexelSlot{Slot::Items, vk::Format::eR32G32B32A32Uint, 16},
                                         TexelSlot{Slot::Starts, vk::Format::eR32G32B32A32Sfloat, 16},
                                         TexelSlot{Slot::States, vk::Format::eR32G32B32A32Sfloat, 16},
-                                        TexelSlot{Slot::Offsets, vk::Format::eR32Uint, 4},
+                                        TexelSlot{Slot::Found, vk::Format::eR32G32B32A32Uint, 16},
                                         TexelSlot{Slot::CutCells, vk::Format::eR32G32Uint, 8}};
 // Every device lets a stage read 16 (maxPerStageDescriptorSampledImages).
 static_assert(kTexelSlots.size() <= 16);

@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "contrejour/expert/trace.h"
+#include "ghosts/light_frame.h"
 #include "ghosts/ray_grid.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/adaptive/kept_paths.h"
@@ -41,6 +42,8 @@ struct LayerItems {
 // The data that all layers have in common.
 struct FrameItems {
   std::vector<double> lambda_nm;  // of all lights, in order
+  bool has_axial_symmetry = true;
+  std::vector<LightFrame> frames;       // of the windows, by light
   std::vector<EntranceWindow> windows;  // by light
   std::shared_ptr<const DevicePaths> paths;  // by ghost, then by wavelength
   std::vector<DeviceStart> starts;  // by light
@@ -62,12 +65,11 @@ std::vector<double> wavelengths_of(const FramePlan& plan) {
   return all_nm;
 }
 
-DeviceStart start_of(const LensSteps& steps, const Ghost& any, const PlannedLight& light,
+DeviceStart start_of(const LensSteps& steps, const Ghost& any, const PlannedLight& light, const LightFrame& frame,
                      const EntranceWindow& window) {
-  const PacketPath path(steps, any, {{window.min_mm.x, window.min_mm.y, window.z_mm}, light.source});
-  const Vec2 across{light.source.direction.x, light.source.direction.y};
-  const double size = length(across);
-  return {path.start(), size > 0.0 ? across * (1.0 / size) : Vec2{1.0, 0.0}};
+  const Vec2 corner_mm = frame.to_lens_frame(window.min_mm);
+  const PacketPath path(steps, any, {{corner_mm.x, corner_mm.y, window.z_mm}, light.source});
+  return {path.start(), LightFrame(light.source).to_lens_frame({1.0, 0.0})};
 }
 
 // Half-tones within a sharp outline are those of the picture as the iris, which devices have at all crossings.
@@ -101,6 +103,7 @@ void add_group(const FramePlan& plan, const StopTransmittances& stops, GhostOfLi
                std::span<const PlannedPass> passes, FrameItems& to) {
   const AppliedAdjustment& adjustment = plan.adjustments[pair.ghost];
   const EntranceWindow& window = to.windows[pair.light];
+  const Vec2 corner_mm = to.frames[pair.light].to_lens_frame(window.min_mm);
   LayerItems& layer = to.layers[plan.layer_of(pair.ghost, pair.light)];
   const auto first = static_cast<std::uint32_t>(layer.items.size());
   const auto count = static_cast<std::uint32_t>(passes.size());
@@ -120,7 +123,7 @@ void add_group(const FramePlan& plan, const StopTransmittances& stops, GhostOfLi
          .gain = tinted(pass.gain),
          .gain_by_x = tinted(pass.slopes.by_x),
          .gain_by_y = tinted(pass.slopes.by_y),
-         .middle_mm = pass.slopes.middle_mm - window.min_mm,
+         .middle_mm = pass.slopes.middle_mm - corner_mm,
          .shift_mm = adjustment.shift_mm,
          .pattern = pattern});
     if (pattern != DevicePatterns::kNone) ++pattern;
@@ -133,14 +136,19 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
   if (plan.ghosts.empty() || plan.lights.empty()) return out;
   out.lambda_nm = wavelengths_of(plan);
   if (out.lambda_nm.empty()) return out;
-  for (const PlannedLight& light : plan.lights) out.windows.push_back(entrance_window(planned.lens, light.source));
+  out.has_axial_symmetry =
+      std::ranges::all_of(plan.ghosts, [&](const Ghost& ghost) { return has_axial_symmetry(planned.lens, ghost); });
+  for (const PlannedLight& light : plan.lights) {
+    out.frames.emplace_back(light.source, out.has_axial_symmetry);
+    out.windows.push_back(entrance_window(planned.lens, out.frames.back().source));
+  }
   const auto kept =
       planned.cache.section<KeptPaths>({pupils::KeptPupils::key_of(planned.lens), plan.ghosts, out.lambda_nm});
   out.paths = kept->get(planned.lens, plan.tables, out.windows.front().z_mm);
   const StepsByWavelength steps(planned.lens, plan.tables);
   for (std::size_t k = 0; k < plan.lights.size(); ++k)
-    out.starts.push_back(
-        start_of(steps.at(out.lambda_nm.front()), plan.ghosts.front(), plan.lights[k], out.windows[k]));
+    out.starts.push_back(start_of(steps.at(out.lambda_nm.front()), plan.ghosts.front(), plan.lights[k], out.frames[k],
+                                  out.windows[k]));
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
     if (!passes.empty()) add_group(plan, stops, {g, k}, passes, out);
   });
@@ -176,15 +184,13 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
   const auto dirt = planned.cache.section<KeptDeviceDirt>({})->get(plan->dirt);
   const double front_gap_mm =
       dirt && !all.windows.empty() ? plan->dirt->site().front_z_mm - all.windows.front().z_mm : 0.0;
-  const bool symmetric =
-      std::ranges::all_of(plan->ghosts, [&](const Ghost& ghost) { return has_axial_symmetry(planned.lens, ghost); });
   return draw_layers(
       *kept.device, {*plan, frame, planned.cache, std::move(statistics), ms_since(start)}, has_light,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
         return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items,
-                                             groups, error, plan->min_peak, kept.use, kept.starbursts, symmetric},
+                                             groups, error, plan->min_peak, kept.use, kept.starbursts, all.has_axial_symmetry},
                                  image, drawing);
       },
       context);

@@ -106,7 +106,7 @@ struct DevicePaths {
 };
 
 // A light: its ray through the lower corner of its window of the entrance plane, and the direction of the plane that
-// holds the light and the lens's axis, a unit vector.
+// holds the light and the lens's axis, a unit vector. With axial symmetry the window lies along it.
 struct DeviceStart {
   PacketStart start;
   Vec2 meridian{1.0, 0.0};
@@ -119,7 +119,7 @@ struct DeviceItem {
   double irradiance = 1.0;  // a ray of transmission 1 carries its part of the window's area times this
   std::array<float, 3> gain{};  // from flux to pixel values, at the middle
   std::array<float, 3> gain_by_x{}, gain_by_y{};  // its change by mm of the entrance plane
-  Vec2 middle_mm{};  // from the window's lower corner
+  Vec2 middle_mm{};  // from the point of its start
   Vec2 shift_mm{};  // of the ghost, on the sensor
   std::uint32_t pattern = DevicePatterns::kNone;  // number in the job; none: the iris is sharp
 };
@@ -146,7 +146,8 @@ struct AdaptiveJob {
   double least_peak = 0.0;  // FramePlan::min_peak
   PictureUse use = PictureUse::Read;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
-  bool has_axial_symmetry = true;  // all ghosts: small pupils lie in the plane of the light and the axis
+  // Of all ghosts: small pupils lie in the plane of the light and the axis, and each half of a window mirrors the other.
+  bool has_axial_symmetry = true;
 };
 
 // The work of a device, and what it took.

@@ -13,25 +13,25 @@ layout(std430, set = 0, binding = 9) buffer Large { uint large[]; };            
 layout(std430, set = 0, binding = 10) buffer LargeCorners { vec2 large_corners[]; };
 layout(std430, set = 0, binding = 11) buffer Blocks { float blocks[]; };  // of merged cells
 layout(std430, set = 0, binding = 13) buffer Vertices { vec2 vertices[]; };  // by ray: irradiance, > 0 where blocked
-layout(std430, set = 0, binding = 21) buffer TileCounts { uint tile_counts[]; };  // by tile: polygons, and those listed
-layout(std430, set = 0, binding = 22) buffer TileFirst { uint tile_first[]; };    // by tile: where its list begins
-layout(std430, set = 0, binding = 23) buffer TileLists { uint tile_lists[]; };    // polygons by tile
-layout(std430, set = 0, binding = 24) buffer Indirect { uint indirect[]; };       // group counts of dispatches
-layout(std430, set = 0, binding = 26) buffer Wide { uint wide[]; };  // polygons
-layout(std430, set = 0, binding = 28) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/task.glsl
+layout(std430, set = 0, binding = 18) buffer TileCounts { uint tile_counts[]; };  // by tile: polygons, and those listed
+layout(std430, set = 0, binding = 19) buffer TileFirst { uint tile_first[]; };    // by tile: where its list begins
+layout(std430, set = 0, binding = 20) buffer TileLists { uint tile_lists[]; };    // polygons by tile
+layout(std430, set = 0, binding = 21) buffer Indirect { uint indirect[]; };       // group counts of dispatches
+layout(std430, set = 0, binding = 23) buffer Wide { uint wide[]; };  // polygons
+layout(std430, set = 0, binding = 25) buffer TileTasks { uvec4 tile_tasks[]; };  // lists/task.glsl
 // The buffers above under other names, for shaders that read what others have written. lavapipe reads these for all
 // invocations at once, and storage buffers in a loop over them. A shader that writes a buffer reads it by its own name.
-layout(set = 0, binding = 31) uniform samplerBuffer table_texels;  // by value of reflectances: it and the next
-layout(set = 0, binding = 32) uniform samplerBuffer ray_texels;
-layout(set = 0, binding = 33) uniform samplerBuffer crossing_texels;
-layout(set = 0, binding = 34) uniform samplerBuffer vertex_texels;
-layout(set = 0, binding = 35) uniform samplerBuffer bound_texels;  // of the iris, two a bound
-layout(set = 0, binding = 36) uniform usamplerBuffer large_texels;  // four a polygon
-layout(set = 0, binding = 37) uniform samplerBuffer corner_texels;
-layout(set = 0, binding = 38) uniform usamplerBuffer list_texels;
-layout(set = 0, binding = 39) uniform samplerBuffer block_texels;
-layout(set = 0, binding = 40) uniform samplerBuffer float_texels;     // of paths: numbers, four a texel
-layout(set = 0, binding = 41) uniform isamplerBuffer integer_texels;  // of paths, four a texel
+layout(set = 0, binding = 28) uniform samplerBuffer table_texels;  // by value of reflectances: it and the next
+layout(set = 0, binding = 29) uniform samplerBuffer ray_texels;
+layout(set = 0, binding = 30) uniform samplerBuffer crossing_texels;
+layout(set = 0, binding = 31) uniform samplerBuffer vertex_texels;
+layout(set = 0, binding = 32) uniform samplerBuffer bound_texels;  // of the iris, two a bound
+layout(set = 0, binding = 33) uniform usamplerBuffer large_texels;  // four a polygon
+layout(set = 0, binding = 34) uniform samplerBuffer corner_texels;
+layout(set = 0, binding = 35) uniform usamplerBuffer list_texels;
+layout(set = 0, binding = 36) uniform samplerBuffer block_texels;
+layout(set = 0, binding = 37) uniform samplerBuffer float_texels;     // of paths: numbers, four a texel
+layout(set = 0, binding = 38) uniform isamplerBuffer integer_texels;  // of paths, four a texel
 
 // Whether the device is a processor, which wants other code where this constant is asked for.
 layout(constant_id = 3) const bool ON_PROCESSOR = false;

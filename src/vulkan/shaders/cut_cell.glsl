@@ -4,4 +4,4 @@
 // bits of the third word, and what dims the cell in those of the last.
 #define CUT_GRID_SHIFT 2u
 #define CUT_DIMS_SHIFT 1u
-layout(std430, set = 0, binding = 20) buffer CutCells { uvec4 cut_cells[]; };
+layout(std430, set = 0, binding = 17) buffer CutCells { uvec4 cut_cells[]; };

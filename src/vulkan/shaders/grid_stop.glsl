@@ -5,7 +5,7 @@
 #include "stop/pattern.glsl"
 #include "stop/occluders.glsl"
 #include "stop/squares.glsl"
-layout(set = 0, binding = 42) uniform usamplerBuffer grid_texels;  // four a grid, GridRecord
+layout(set = 0, binding = 39) uniform usamplerBuffer grid_texels;  // four a grid, GridRecord
 
 #define DISC_OF_CORNERS 1.5  // over the corners' distance from the middle: cells may be curved
 

@@ -2,7 +2,7 @@
 // The primitives that primitives.comp lists: those that are cut from the front, open ones from the back. A record is
 // the first ray; the rays a side of the grid, the level of merging, the kind and the crossings of the stop, in one
 // word; the flux; the grid, in frames with stop patterns or dirt.
-layout(std430, set = 0, binding = 20) buffer Primitives { uvec4 primitives[]; };
+layout(std430, set = 0, binding = 17) buffer Primitives { uvec4 primitives[]; };
 #define LISTED_GRID_SHIFT 4u  // of a large primitive, in frames with stop patterns or dirt
 #define IS_QUAD 0u
 #define IS_FIRST_TRIANGLE 1u

@@ -158,7 +158,7 @@ uint number_blocks() {
       counts[t] += other;
       barrier();
     }
-    if (item < p.item_count) offsets[item] = before + counts[t] - own;
+    if (item < p.item_count) states[STATE_WORDS * item + STATE_OFFSET] = uintBitsToFloat(before + counts[t] - own);
     before += counts[255];
     barrier();
   }
@@ -181,7 +181,7 @@ void main() {
   barrier();
   uint blocks = number_blocks();
   if (t != 0u) return;
-  offsets[p.item_count] = blocks;
+  states[STATE_WORDS * p.item_count + STATE_OFFSET] = uintBitsToFloat(blocks);
   bool fits = 64u * blocks <= p.ray_capacity;
   if (!fits) counters[COUNT_OVERFLOWS] = OVERFLOW_RAYS;
   counters[COUNT_BLOCKS] = blocks;

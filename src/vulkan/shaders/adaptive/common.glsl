@@ -7,24 +7,20 @@
 #include "../stop/tables.glsl"
 
 #define ITEM_WORDS 24u
-#define GROUP_WORDS 4u
 #define STATE_WORDS 24u
 #define LEVELS 6u  // of the search for the pupil, with those of two wavelengths
 
-layout(std430, set = 0, binding = 15) readonly buffer Groups { uint groups[]; };
-// By group and level: the box that is searched, lower corner and size, mm from the window's lower corner; and the bounds
+// By group and level: the box that is searched, lower corner and size, mm from the point of the start; and the bounds
 // of its cells through which light passes, then of those through which it may pass, which count at the first level, and
 // later where there are no others: each the largest of (cells - column, cells - row, column + 1, row + 1).
-layout(std430, set = 0, binding = 16) buffer Boxes { vec4 boxes[]; };
-layout(std430, set = 0, binding = 17) buffer Found { uint found[]; };
-layout(std430, set = 0, binding = 18) buffer States { float states[]; };  // by item
-layout(std430, set = 0, binding = 19) buffer Offsets { uint offsets[]; };  // by item: its first block of 64 rays
-layout(std430, set = 0, binding = 20) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
-layout(set = 0, binding = 42) uniform usamplerBuffer item_texels;   // six an item
-layout(set = 0, binding = 43) uniform samplerBuffer start_texels;   // four a light
-layout(set = 0, binding = 44) uniform samplerBuffer state_texels;   // six an item
-layout(set = 0, binding = 45) uniform usamplerBuffer offset_texels;
-layout(set = 0, binding = 46) uniform usamplerBuffer cut_texels;
+layout(std430, set = 0, binding = 15) buffer Found { uint found[]; };
+layout(std430, set = 0, binding = 16) buffer States { float states[]; };  // by item, and what follows the last one
+layout(std430, set = 0, binding = 17) buffer CutCells { uvec2 cut_cells[]; };  // item and cell
+layout(set = 0, binding = 39) uniform usamplerBuffer item_texels;   // six an item, then one a group
+layout(set = 0, binding = 40) uniform samplerBuffer start_texels;   // four a light
+layout(set = 0, binding = 41) uniform samplerBuffer state_texels;   // six an item
+layout(set = 0, binding = 42) uniform usamplerBuffer found_texels;  // three a group and level, of levels that are done
+layout(set = 0, binding = 43) uniform usamplerBuffer cut_texels;
 
 layout(push_constant) uniform Parameters {
   uint item_count, group_count, level, flags;
@@ -41,6 +37,8 @@ layout(push_constant) uniform Parameters {
   uint window_blocks;   // a side, of 16 x 16 rays, in which the first level searches the window for pupils
 }
 p;
+
+#define FLAG_SYMMETRIC 256u  // all ghosts have axial symmetry
 
 // A part of a cut cell, in cut_cells[].y: the cell's first ray in its grid, the part, the parts a side less 1.
 #define CUT_CELL_MASK 0x1fffffu
@@ -65,7 +63,7 @@ vec2 item_window(uint item) { return vec2(item_float(item, 9u), item_float(item,
 uint item_pattern(uint item) { return item_word(item, 14u); }  // from 1 on; 0: the iris is sharp
 
 // Words of a group: its first item, their number, the item in whose wavelength the pupil is searched.
-uint group_word(uint group, uint k) { return groups[GROUP_WORDS * group + k]; }
+uint group_word(uint group, uint k) { return texelFetch(item_texels, int(ITEM_WORDS / 4u * p.item_count + group))[k]; }
 
 // A histogram of the frame's values, in sums[]: bins of a quarter of an octave, in sixteenths of a pixel and channel.
 #define BINS 1024u
@@ -78,7 +76,7 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 // one's wavelength, all squared and summed over the pixels; its flux within the frame; the squared displacement from the
 // other, relative to its area; the cells a side, and the parts a side of a cell at an edge; its gains with those of the
 // items that are drawn by it; the squared error of drawing its stop pattern as the sharp iris, and the pattern that is
-// drawn; the box in which its rays are traced.
+// drawn; the box in which its rays are traced; its first block of 64 rays, which is their number after the last item.
 #define STATE_ERROR 0u
 #define STATE_MERGED_ERROR 1u
 #define STATE_FLUX 2u
@@ -92,15 +90,15 @@ uint wanted_parts() { return max(uint(BRIGHTER_THAN_PEAK * 3.0 * PIXEL_PARTS * f
 #define STATE_PATTERN 12u
 #define STATE_BOX 13u     // lower corner, size
 #define STATE_SLOPES 17u  // of the gains: by x, then by y
+#define STATE_OFFSET 23u
 #define COARSE_CELLS 15u
 #ifdef READ_TEXELS
 float state(uint item, uint k) { return texelFetch(state_texels, int(STATE_WORDS / 4u * item + (k >> 2u)))[k & 3u]; }
-uint offset_of(uint item) { return texelFetch(offset_texels, int(item)).x; }
 #else
 float state(uint item, uint k) { return states[STATE_WORDS * item + k]; }
-uint offset_of(uint item) { return offsets[item]; }
 #endif
 float squared_error_of(uint item) { return state(item, STATE_ERROR) + state(item, STATE_EDGE_ERROR); }
+uint offset_of(uint item) { return floatBitsToUint(state(item, STATE_OFFSET)); }
 uint cells_of(uint item) { return floatBitsToUint(state(item, STATE_CELLS)); }
 vec4 state_box(uint item) {
   return vec4(state(item, STATE_BOX), state(item, STATE_BOX + 1u), state(item, STATE_BOX + 2u),
@@ -126,14 +124,47 @@ vec3 state_gain(uint item, vec2 at) {
 #define OUTER_LEVEL 4u
 #define OUTER_SCANS 2u  // workgroups that scan it
 bool searches_window(uint level) { return level == 0u || level >= OUTER_LEVEL; }
-uint search_blocks_a_side(uint level) { return searches_window(level) ? p.window_blocks : level == 1u ? 2u : 1u; }
+// Levels whose boxes lie along the plane of the light and the axis; the halves of a box by its second side mirror each
+// other. Later boxes, and all without axial symmetry, lie along the frame: tiles are filled faster by cells that do.
+bool is_mirrored(uint level) {
+  return (p.flags & FLAG_SYMMETRIC) != 0u && (level < ALL_ITEMS_LEVEL || level >= OUTER_LEVEL);
+}
+// The direction of the plane of the item's light and the axis: the first side of a box that lies along it.
+vec2 meridian_of(uint item) { return texelFetch(start_texels, int(4u * item_word(item, 11u) + 2u)).xy; }
+vec2 in_lens_frame(vec2 meridian, vec2 along_it) {
+  return meridian * along_it.x + vec2(-meridian.y, meridian.x) * along_it.y;
+}
+// The bounds along the frame of a box along a meridian.
+vec4 bounds_along_frame(vec2 meridian, vec4 box) {
+  vec2 x = in_lens_frame(meridian, vec2(box.z, 0.0)), y = in_lens_frame(meridian, vec2(0.0, box.w));
+  vec2 middle = in_lens_frame(meridian, box.xy + 0.5 * box.zw), size = abs(x) + abs(y);
+  return vec4(middle - 0.5 * size, size);
+}
+
+// The workgroups by the sides of what is searched, which is the upper half of a box that is mirrored.
+uvec2 blocks_by_sides(uint level) {
+  uint a_side = searches_window(level) ? p.window_blocks : level == 1u ? 2u : 1u;
+  return uvec2(a_side, is_mirrored(level) ? (a_side + 1u) / 2u : a_side);
+}
 uint search_blocks(uint level) {
   if (level == OUTER_LEVEL) return 2u * OUTER_SCANS;
-  return search_blocks_a_side(level) * search_blocks_a_side(level) + (level == 0u ? SCANS : 0u);
+  uvec2 blocks = blocks_by_sides(level);
+  return blocks.x * blocks.y + (level == 0u ? SCANS : 0u);
 }
-uint cells_of_level(uint level) { return COARSE_CELLS * search_blocks_a_side(level); }
+uvec2 cells_of_level(uint level) { return COARSE_CELLS * blocks_by_sides(level); }
+vec4 searched_part(uint level, vec4 box) {
+  float half_width = 0.5 * box.w;
+  return is_mirrored(level) ? vec4(box.x, box.y + half_width, box.z, half_width) : box;
+}
 
-bool passes_at_level(uint group, uint level) { return found[8u * (group * LEVELS + level) + 2u] > 0u; }
+// Of a level of a group, number_of_level().
+#define LEVEL_WORDS 12u
+uint number_of_level(uint group, uint level) { return group * LEVELS + level; }
+vec4 box_at(uint number) { return uintBitsToFloat(texelFetch(found_texels, int(3u * number))); }
+uvec4 cells_that_pass(uint number) { return texelFetch(found_texels, int(3u * number + 1u)); }
+uvec4 cells_that_may_pass(uint number) { return texelFetch(found_texels, int(3u * number + 2u)); }
+
+bool passes_at_level(uint group, uint level) { return cells_that_pass(number_of_level(group, level)).z > 0u; }
 // The level that found light first; OUTER_LEVEL + 1: it did so at the last wavelength.
 uint first_level(uint group) {
   for (uint level = OUTER_LEVEL; level < LEVELS; ++level)
@@ -148,24 +179,27 @@ uint item_of_first_level(uint group, uint level) {
 }
 
 // The number of cells within bounds.
-uint extent_of(uvec4 f, uint cells) { return f.z == 0u ? 0u : (f.x + f.z - cells) * (f.y + f.w - cells); }
+uint extent_of(uvec4 f, uvec2 cells) { return f.z == 0u ? 0u : (f.x + f.z - cells.x) * (f.y + f.w - cells.y); }
 
 // The box of a level of the search after the first ones, from the bounds that the level before found.
 vec4 box_of_level(uint group, uint level) {
-  uint before = group * LEVELS + (level == 1u ? first_level(group) : level - 1u);
-  vec4 box = boxes[before];
-  uint cells = cells_of_level(level - 1u), at = 8u * before;
-  uvec4 passes = uvec4(found[at], found[at + 1u], found[at + 2u], found[at + 3u]);
-  uvec4 may_pass = uvec4(found[at + 4u], found[at + 5u], found[at + 6u], found[at + 7u]);
+  uint before = number_of_level(group, level == 1u ? first_level(group) : level - 1u);
+  vec4 box = box_at(before);
+  uvec2 cells = cells_of_level(level - 1u);
+  uvec4 passes = cells_that_pass(before), may_pass = cells_that_may_pass(before);
   uvec4 f = passes.z > 0u ? passes : may_pass;
   // Between the rays of the first level there may be other parts of a pupil than those that rays have found. They count
   // if the next level resolves what was found in the larger box.
   uvec4 both = max(passes, may_pass);
   if (level == 1u && extent_of(both, cells) <= 9u * extent_of(passes, cells)) f = both;
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
-  vec2 step_mm = box.zw / float(cells);
-  vec2 low = vec2(cells - f.x, cells - f.y);
-  vec4 narrowed = vec4(box.xy + low * step_mm, (vec2(f.zw) - low) * step_mm);
+  vec4 searched = searched_part(level - 1u, box);
+  vec2 step_mm = searched.zw / vec2(cells);
+  vec2 low = searched.xy + vec2(cells - f.xy) * step_mm, high = searched.xy + vec2(f.zw) * step_mm;
+  if (is_mirrored(level - 1u)) low.y = 2.0 * searched.y - high.y;
+  vec4 narrowed = vec4(low, high - low);
+  if (is_mirrored(level - 1u) && !is_mirrored(level))
+    narrowed = bounds_along_frame(meridian_of(group_word(group, 0u)), narrowed);
   const float margin = 0.25;
   if (level == ALL_ITEMS_LEVEL) narrowed = vec4(narrowed.xy - margin * narrowed.zw, (1.0 + 2.0 * margin) * narrowed.zw);
   return narrowed;

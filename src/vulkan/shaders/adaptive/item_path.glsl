@@ -25,3 +25,23 @@ void set_path(uint item) {
   first_word_texel = item_word(item, 1u) / 4u;
   path_steps = item_word(item, 2u);
 }
+
+// Two rays along the same path, as one: a ray waits for its roots and divisions most of the time, and for the numbers of
+// each surface, which both need. For processors.
+struct TwoRays {
+  vec4 first, second;
+  vec2 first_points[MAX_CROSSINGS], second_points[MAX_CROSSINGS];
+};
+
+TwoRays trace_two(vec2 first, vec2 second) {
+  TwoRays rays;
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c) rays.first_points[c] = rays.second_points[c] = vec2(0.0);
+  PacketState a = enter(first.x, first.y), b = enter(second.x, second.y);
+  for (uint step = 0u; step < path_steps; ++step) {
+    advance(a, step, rays.first_points);
+    advance(b, step, rays.second_points);
+  }
+  rays.first = land(a);
+  rays.second = land(b);
+  return rays;
+}

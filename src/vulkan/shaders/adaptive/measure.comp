@@ -305,32 +305,44 @@ void publish_histogram() {
 float middle_density = 0.0;  // of the cell, in the group's middle item
 vec2 middle_place;           // of the ray, in that item
 
-void trace_corner(uint item, bool is_middle, vec4 box) {
-  uint k = gl_LocalInvocationIndex;
-  set_path(item);
-  vec2 at = box.xy + box.zw * vec2(gl_LocalInvocationID.xy) / float(COARSE_CELLS);
-  vec4 ray = trace_ray(at.x, at.y);
-  vec2 farthest = stop_points[0];
+vec2 place_of(vec4 box, uint k) { return box.xy + box.zw * vec2(k & 15u, k >> 4u) / float(COARSE_CELLS); }
+
+// at: where the ray enters; points: where it crosses the stop.
+void keep_corner(uint k, uint item, vec2 at, vec4 ray, vec2 points[MAX_CROSSINGS]) {
+  vec2 farthest = points[0];
   float distance = sharp_crossings > 0u ? iris_distance(farthest) : -1.0;
   for (uint c = 1u; c < sharp_crossings; ++c) {
-    float here = iris_distance(stop_points[c]);
-    if (here > distance) farthest = stop_points[c];
+    float here = iris_distance(points[c]);
+    if (here > distance) farthest = points[c];
     distance = max(distance, here);
   }
   places[k] = ray.xy;
-  if (is_middle) middle_place = ray.xy;
   transmissions[k] = failed(ray) ? -1.0 : ray.z;
   rims[k] = ray.w;
   stops[k] = farthest;
   iris_distances[k] = distance;
-  if (pattern != 0u) last_stops[k] = stop_points[sharp_crossings];
+  if (pattern != 0u) last_stops[k] = points[sharp_crossings];
 #ifdef OCCLUDERS
-  if (HAS_PICTURE) last_stops[k] = stop_points[crossings_of_group - 1u];
+  if (HAS_PICTURE) last_stops[k] = points[crossings_of_group - 1u];
   if ((p.flags & FLAG_DIRT_ON_FRONT) != 0u)
     dirt_points[k] = front_point(item, at);
   else if ((p.flags & FLAG_DIRT_IN_STOP) != 0u)
-    dirt_points[k] = stop_points[crossings_of_group - 1u] * dirt_float(DIRT_MM_A_UNIT);
+    dirt_points[k] = points[crossings_of_group - 1u] * dirt_float(DIRT_MM_A_UNIT);
 #endif
+}
+
+// Traces the rays of a workgroup, one an invocation; on processors half of the invocations trace two rays each.
+void trace_corners(uint item, vec4 box) {
+  uint k = gl_LocalInvocationIndex;
+  set_path(item);
+  vec2 at = place_of(box, k), other_at = place_of(box, k + 128u);
+  if (!ON_PROCESSOR) {
+    keep_corner(k, item, at, trace_ray(at.x, at.y), stop_points);
+  } else if (k < 128u) {
+    TwoRays two = trace_two(at, other_at);
+    keep_corner(k, item, at, two.first, two.first_points);
+    keep_corner(k + 128u, item, other_at, two.second, two.second_points);
+  }
   barrier();
 }
 
@@ -414,7 +426,8 @@ void measure(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;
   pattern = item_pattern(item);
   sharp_crossings = HAS_PICTURE ? 0u : crossings_of_group - (pattern != 0u ? 1u : 0u);
-  trace_corner(item, is_middle, box);
+  trace_corners(item, box);
+  if (is_middle) middle_place = places[k];
   float cell_mm2 = box.z * box.w / float(COARSE_CELLS * COARSE_CELLS);
   Cell cell = cell_at(k, cell_mm2 * item_irradiance(item));
   densities[k] = cell.area_px < 0.0 ? -cell.density : cell.density;

@@ -14,34 +14,49 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define OUTER_SCAN_REACH 4.0  // where no grid has been searched
 #define SHRINK_ENOUGH 0.85  // the search goes on while a level shrinks the area below this fraction
 
-shared float heights[256];  // relative height - 1, FAILED where a ray fails
-shared vec2 stops[MAX_CROSSINGS][256];
+// Each ray's relative height - 1, FAILED where it fails, and where it crosses the stop first; later crossings.
+shared vec3 corners[256];
+shared vec2 later_stops[MAX_CROSSINGS - 1u][256];
 shared uint bounds_found[8];  // as found[]
 
-void keep_corner(uint k, vec4 ray, vec2 points[MAX_CROSSINGS]) {
-  heights[k] = failed(ray) ? FAILED : ray.w - 1.0;
-  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
-    if (c < crossings_of(path_item)) stops[c][k] = points[c];
+// A workgroup's rays lie on a grid of cells or, if it scans, on a line.
+struct RaySet {
+  bool scans;
+  vec2 first, step_x, step_y;  // mm from the point of the start, by the sides of the box
+  vec2 window;                 // its size, mm; rays of a scan that begin outside do not count
+  vec2 side;                   // the direction of the box's first side
+};
+
+vec2 place_of(RaySet rays, uint k) {
+  vec2 by = rays.scans ? vec2(k, 0u) : vec2(k & 15u, k >> 4u);
+  return rays.first + by.x * rays.step_x + by.y * rays.step_y;
 }
 
-// Traces the rays of a workgroup: that of each invocation, which enters at a place. later: the place of the invocation
-// that comes 128 later. On processors half of the invocations trace two rays each, as a ray waits for its roots and
-// divisions most of the time.
-void trace_corner(uint item, vec2 at, vec2 later, uint k) {
+bool counts(RaySet rays, vec2 place) {
+  return !rays.scans || (all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, rays.window)));
+}
+
+void keep_corner(uint k, bool counted, vec4 ray, vec2 points[MAX_CROSSINGS]) {
+  corners[k] = vec3(points[0], failed(ray) || !counted ? FAILED : ray.w - 1.0);
+  for (uint c = 1u; c < MAX_CROSSINGS; ++c)
+    if (c < crossings_of(path_item)) later_stops[c - 1u][k] = points[c];
+}
+
+// Traces the rays of a workgroup, one an invocation; on processors half of the invocations trace two rays each.
+void trace_corners(uint item, RaySet rays) {
+  uint k = gl_LocalInvocationIndex;
   set_path(item);
+  vec2 place = place_of(rays, k);
   if (!ON_PROCESSOR) {
-    keep_corner(k, trace_ray(at.x, at.y), stop_points);
+    vec2 from = in_lens_frame(rays.side, place);
+    keep_corner(k, counts(rays, place), trace_ray(from.x, from.y), stop_points);
     return;
   }
   if (k >= 128u) return;
-  vec2 other_points[MAX_CROSSINGS] = vec2[MAX_CROSSINGS](vec2(0.0), vec2(0.0), vec2(0.0));
-  PacketState s = enter(at.x, at.y), other = enter(later.x, later.y);
-  for (uint step = 0u; step < path_steps; ++step) {
-    advance(s, step, stop_points);
-    advance(other, step, other_points);
-  }
-  keep_corner(k, land(s), stop_points);
-  keep_corner(k + 128u, land(other), other_points);
+  vec2 other_place = place_of(rays, k + 128u);
+  TwoRays two = trace_two(in_lens_frame(rays.side, place), in_lens_frame(rays.side, other_place));
+  keep_corner(k, counts(rays, place), two.first, two.first_points);
+  keep_corner(k + 128u, counts(rays, other_place), two.second, two.second_points);
 }
 
 // Beside failing rays the others count by their distances.
@@ -66,101 +81,101 @@ bool may_pass_rim(vec4 height, bvec4 good) {
 #define PASSES 0u
 #define MAY_PASS 4u
 
-// Reports light within bounds, in cells of the box.
-void report(uint kind, vec2 low, vec2 high, uint cells) {
-  uvec2 first = uvec2(clamp(floor(low), vec2(0.0), vec2(cells - 1u))), last = uvec2(clamp(ceil(high), vec2(1.0), vec2(cells)));
-  atomicMax(bounds_found[kind], cells - first.x);
-  atomicMax(bounds_found[kind + 1u], cells - first.y);
+// Reports light within bounds, in cells of what is searched.
+void report(uint kind, vec2 low, vec2 high, uvec2 cells) {
+  uvec2 first = uvec2(clamp(floor(low), vec2(0.0), vec2(cells - 1u)));
+  uvec2 last = uvec2(clamp(ceil(high), vec2(1.0), vec2(cells)));
+  if (is_mirrored(p.level)) first.y = 0u;
+  atomicMax(bounds_found[kind], cells.x - first.x);
+  atomicMax(bounds_found[kind + 1u], cells.y - first.y);
   atomicMax(bounds_found[kind + 2u], last.x);
   atomicMax(bounds_found[kind + 3u], last.y);
 }
 
-void search_block(uint item, vec4 box, uint cells, uint block) {
-  uint k = gl_LocalInvocationIndex, blocks_a_side = cells / COARSE_CELLS;
-  uvec2 place = COARSE_CELLS * uvec2(block % blocks_a_side, block / blocks_a_side) + gl_LocalInvocationID.xy;
-  trace_corner(item, box.xy + box.zw * vec2(place) / float(cells),
-               box.xy + box.zw * vec2(place + uvec2(0u, 8u)) / float(cells), k);
-  barrier();
-  if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return;
-  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+// Looks for light between the rays of a workgroup, and reports where. cell: of the box, of the invocation; reach: of what
+// a scan reports, cells on each side. Grids and scans share the code, since processors would execute both.
+void inspect(uint item, RaySet rays, vec2 cell, float reach, uvec2 cells) {
+  uint k = gl_LocalInvocationIndex;
+  bool is_cell = gl_LocalInvocationID.x < COARSE_CELLS && gl_LocalInvocationID.y < COARSE_CELLS;
+  uint next = min(k + 1u, 255u);
+  uvec4 v = rays.scans ? uvec4(k, next, next, k) : is_cell ? uvec4(k, k + 1u, k + 17u, k + 16u) : uvec4(k);
   uint crossing_count = crossings_of(item), pattern = item_pattern(item);
   // Each number of the corners is read once: lavapipe reads shared memory slowly.
-  vec4 height = vec4(heights[v.x], heights[v.y], heights[v.z], heights[v.w]);
+  vec3 corner[4] = vec3[4](corners[v.x], corners[v.y], corners[v.z], corners[v.w]);
+  vec4 height = vec4(corner[0].z, corner[1].z, corner[2].z, corner[3].z);
   bvec4 open = lessThanEqual(height, vec4(0.0)), good = lessThan(height, vec4(0.5 * FAILED));
-  bool may_pass = may_pass_rim(height, good);
+  bool may_pass = may_pass_rim(height, good), on_line = good.x && (open.x || (good.y && open.y));
   for (uint c = 0u; c < crossing_count; ++c) {
-    vec2 q[4] = vec2[4](stops[c][v.x], stops[c][v.y], stops[c][v.z], stops[c][v.w]);
+    vec2 q[4] = vec2[4](corner[0].xy, corner[1].xy, corner[2].xy, corner[3].xy);
+    if (c > 0u)
+      for (int j = 0; j < 4; ++j) q[j] = later_stops[c - 1u][v[j]];
     float radius = stop_radius(pattern, c, crossing_count);
     for (int j = 0; j < 4; ++j) open[j] = open[j] && dot(q[j], q[j]) <= radius * radius;
     may_pass = may_pass && (all(good) ? near_stop(q, radius) : near_stop_beside_failing(q, good, radius));
+    vec2 end = good.y ? q[1] : q[0];
+    on_line = on_line && distance_to_edge(q[0], end) <= radius + 0.5 * length(end - q[0]);
   }
-  if (!any(open) && !may_pass) return;
+  if (!(rays.scans ? on_line : is_cell && (any(open) || may_pass))) return;
   float around = any(open) && p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
-  report(any(open) ? PASSES : MAY_PASS, vec2(place) - around, vec2(place) + 1.0 + around, cells);
+  vec2 low = rays.scans ? cell - reach : cell - around, high = rays.scans ? cell + reach : cell + 1.0 + around;
+  report(rays.scans || any(open) ? PASSES : MAY_PASS, low, high, cells);
 }
 
 // Small pupils among failing rays lie where the plane of the light and the axis meets the entrance plane: a line that is
-// searched finely, as meridian_scan.cpp does, by a number of workgroups. reach: of what is reported, cells on each side
-// of a hit.
-void scan_meridian(uint item, vec4 box, uint cells, uint part, uint parts, float reach_cells) {
-  uint k = gl_LocalInvocationIndex;
+// searched finely, as meridian_scan.cpp does, by a number of workgroups.
+RaySet rays_on_meridian(uint item, vec2 side, uint part, uint parts) {
   path_item = item;
-  vec2 along = vec2(start_real(START_STEP_X), start_real(START_STEP_Y)), first = vec2(start_real(START_X), start_real(START_Y));
-  float reach = length(max(abs(first), abs(first + box.zw)));
-  float step_mm = 2.0 * reach / float(255u * parts);
-  vec2 at = along * (float(255u * part + k) * step_mm - reach) - first;
-  vec2 later = along * (float(255u * part + k + 128u) * step_mm - reach) - first;
-  bool inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, box.zw));
-  trace_corner(item, at, later, k);
-  barrier();
-  if (!inside) heights[k] = FAILED;
-  barrier();
-  uint next = min(k + 1u, 255u);
-  if (heights[k] >= 0.5 * FAILED) return;
-  if (heights[next] >= 0.5 * FAILED) next = k;
-  if (min(heights[k], heights[next]) > 0.0) return;
-  for (uint c = 0u; c < crossings_of(item); ++c) {
-    vec2 a = stops[c][k], b = stops[c][next];
-    if (distance_to_edge(a, b) > stop_radius(item_pattern(item), c, crossings_of(item)) + 0.5 * length(b - a)) return;
-  }
-  vec2 cell = at / box.zw * float(cells);
-  report(PASSES, cell - reach_cells, cell + reach_cells, cells);
+  vec2 window = item_window(item), meridian = meridian_of(item), start = vec2(start_real(START_X), start_real(START_Y));
+  vec2 along = vec2(dot(side, meridian), cross2(side, meridian)), corner = vec2(dot(side, start), cross2(side, start));
+  float reach = length(max(abs(corner), abs(corner + window)));
+  vec2 step_mm = along * (2.0 * reach / float(255u * parts));
+  return RaySet(true, float(255u * part) * step_mm - reach * along - corner, step_mm, vec2(0.0), window, side);
+}
+
+RaySet rays_of_block(vec4 searched, vec2 side, vec2 step_mm, uvec2 first_cell) {
+  return RaySet(false, searched.xy + vec2(first_cell) * step_mm, vec2(step_mm.x, 0.0), vec2(0.0, step_mm.y), vec2(0.0),
+                side);
 }
 
 void main() {
-  uint cells = cells_of_level(p.level), blocks = search_blocks(p.level);
+  uvec2 cells = cells_of_level(p.level);
+  uint blocks = search_blocks(p.level);
   uint group = linear_group() / blocks, block = linear_group() % blocks;
   if (group >= p.group_count) return;
   bool is_outer = p.level == OUTER_LEVEL;
   uint level = is_outer ? OUTER_LEVEL + block / OUTER_SCANS : p.level;
   uint item = item_of_first_level(group, searches_window(level) ? level : first_level(group));
   if (is_outer && (item == group_word(group, 2u) || passes_at_level(group, 0u))) return;
-  uint at_level = group * LEVELS + level, k = gl_LocalInvocationIndex;
+  uint number = number_of_level(group, level), k = gl_LocalInvocationIndex;
   vec4 box = searches_window(level) ? vec4(0.0, 0.0, item_window(item)) : box_of_level(group, level);
-  if (block % (is_outer ? OUTER_SCANS : blocks) == 0u && k == 0u) boxes[at_level] = box;
+  if (block % (is_outer ? OUTER_SCANS : blocks) == 0u && k < 4u) found[LEVEL_WORDS * number + k] = floatBitsToUint(box[k]);
   if (!(box.z > 0.0)) return;
   if (!searches_window(level) && level < LAST_LEVEL) {
-    vec4 before = boxes[level == 1u ? group * LEVELS + first_level(group) : at_level - 1u];
+    vec4 before = box_at(level == 1u ? number_of_level(group, first_level(group)) : number - 1u);
     if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
-      if (block == 0u && k < 4u) found[8u * at_level + k] = cells;
+      if (block == 0u && k < 4u) found[LEVEL_WORDS * number + 4u + k] = cells[k & 1u];
       return;
     }
   }
   if (k < 8u) bounds_found[k] = 0u;
-  uint grid_blocks = cells * cells / (COARSE_CELLS * COARSE_CELLS);
-  if (is_outer) {
-    scan_meridian(item, box, cells, block % OUTER_SCANS, OUTER_SCANS, OUTER_SCAN_REACH);
-  } else if (block >= grid_blocks) {
-    scan_meridian(item, box, cells, block - grid_blocks, SCANS, SCAN_REACH);
-  } else if (level < ALL_ITEMS_LEVEL) {
-    search_block(item, box, cells, block);
-  } else {
-    uint first = group_word(group, 0u), end = first + group_word(group, 1u);
-    for (uint each = first; each < end; ++each) {
-      search_block(each, box, cells, block);
-      barrier();
-    }
+  vec4 searched = searched_part(level, box);
+  vec2 side = is_mirrored(level) ? meridian_of(item) : vec2(1.0, 0.0);
+  vec2 step_mm = searched.zw / vec2(cells);
+  uint grid_blocks = cells.x * cells.y / (COARSE_CELLS * COARSE_CELLS), blocks_a_row = cells.x / COARSE_CELLS;
+  uvec2 first_cell = COARSE_CELLS * uvec2(block % blocks_a_row, block / blocks_a_row);
+  bool scans = is_outer || block >= grid_blocks;
+  RaySet rays = rays_of_block(searched, side, step_mm, first_cell);
+  if (scans)
+    rays = is_outer ? rays_on_meridian(item, side, block % OUTER_SCANS, OUTER_SCANS)
+                    : rays_on_meridian(item, side, block - grid_blocks, SCANS);
+  vec2 cell = scans ? (place_of(rays, k) - searched.xy) / step_mm : vec2(first_cell + gl_LocalInvocationID.xy);
+  bool at_all = level >= ALL_ITEMS_LEVEL && !is_outer;
+  uint first = at_all ? group_word(group, 0u) : item, count = at_all ? group_word(group, 1u) : 1u;
+  for (uint each = first; each < first + count; ++each) {
+    trace_corners(each, rays);
+    barrier();
+    inspect(each, rays, cell, is_outer ? OUTER_SCAN_REACH : SCAN_REACH, cells);
+    barrier();
   }
-  barrier();
-  if (k < 8u && bounds_found[k] > 0u) atomicMax(found[8u * at_level + k], bounds_found[k]);
+  if (k < 8u && bounds_found[k] > 0u) atomicMax(found[LEVEL_WORDS * number + 4u + k], bounds_found[k]);
 }

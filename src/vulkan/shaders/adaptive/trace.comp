@@ -8,12 +8,29 @@ layout(local_size_x = 64) in;
 #include "grid.glsl"
 #include "item_path.glsl"
 
+vec4 box;
+
+// The place of a ray of the grid in the window.
+vec2 place_of(uint k) { return box.xy + box.zw * (vec2(k % side, k / side) / float(side - 1u)); }
+
+void keep(uint k, vec4 ray, vec2 points[MAX_CROSSINGS]) {
+  rays[first_ray + k] = ray;
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+    if (c < crossings_of(item)) crossings[(first_ray + k) * MAX_CROSSINGS + c] = points[c];
+}
+
 void main() {
   if (!find_ray()) return;
-  vec4 box = state_box(item);
+  box = state_box(item);
   set_path(item);
-  vec2 at = box.xy + box.zw * (vec2(own % side, own / side) / float(side - 1u));
-  uint ray = first_ray + own;
-  rays[ray] = trace_ray(at.x, at.y);
-  for (uint c = 0u; c < crossings_of(item); ++c) crossings[ray * MAX_CROSSINGS + c] = stop_points[c];
+  if (!ON_PROCESSOR) {
+    vec2 at = place_of(own);
+    vec4 ray = trace_ray(at.x, at.y);
+    keep(own, ray, stop_points);
+    return;
+  }
+  if (gl_LocalInvocationID.x >= 32u) return;  // half of the invocations trace two rays each
+  TwoRays two = trace_two(place_of(own), place_of(own + 32u));
+  keep(own, two.first, two.first_points);
+  if (own + 32u < side * side) keep(own + 32u, two.second, two.second_points);
 }

@@ -3,7 +3,7 @@
 // src/vulkan/starburst_words.h lays them out. Positions are relative to the light's image, in pixels, y up; directions
 // are counted as in src/diffraction/starburst_rings.h, in half turns from straight down.
 layout(std430, set = 0, binding = 7) buffer Picture { float picture[]; };
-layout(std430, set = 0, binding = 30) readonly buffer Starbursts { uint starbursts[]; };  // lights, then patterns
+layout(std430, set = 0, binding = 27) readonly buffer Starbursts { uint starbursts[]; };  // lights, then patterns
 
 layout(push_constant) uniform Parameters {
   uint light_count;
