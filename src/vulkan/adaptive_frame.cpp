@@ -364,6 +364,8 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   upload_paths();
   work_.uploaded_bytes += tables_.upload(device_, info_, job_.patterns, job_.dirt);
   geometry_ = geometry_of(*job_.paths);
+  has_patterns_ =
+      std::ranges::any_of(job_.items, [](const DeviceItem& item) { return item.pattern != DevicePatterns::kNone; });
   AdaptiveParameters& p = parameters_;
   p.item_count = narrow(job_.items.size());
   p.group_count = narrow(job_.groups.size());

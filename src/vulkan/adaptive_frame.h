@@ -80,6 +80,7 @@ class AdaptiveFrame {
   [[nodiscard]] Shader choose(Shader clean, Shader occluded) const { return has_occluders() ? occluded : clean; }
   [[nodiscard]] Program for_iris(Program program) const {
     program.has_picture = has_picture();
+    program.has_patterns = has_patterns_;
     return program;
   }
   // Sets what is drawn: the whole frame, or some of its rows.
@@ -109,6 +110,7 @@ class AdaptiveFrame {
   AdaptiveCapacity& capacity_;
   StarburstStage& starbursts_;
   PathGeometry geometry_ = PathGeometry::General;
+  bool has_patterns_ = true;  // items have stop patterns
   AdaptiveParameters parameters_;
   TileLists lists_;
   bool in_bands_ = false;

@@ -14,6 +14,7 @@ constexpr std::uint32_t kPictureConstant = 1;  // that of HAS_PICTURE in shaders
 constexpr std::uint32_t kInterpolationConstant = 2;  // that of INTERPOLATION in shaders/primitive.glsl
 constexpr std::uint32_t kProcessorConstant = 3;  // that of ON_PROCESSOR in shaders/buffers.glsl
 constexpr std::uint32_t kTileGroupConstant = 4;  // the workgroup of shaders/adaptive/raster.comp
+constexpr std::uint32_t kPatternsConstant = 5;   // HAS_PATTERNS of shaders/adaptive/common.glsl
 constexpr std::uint32_t kTileGroup = 256, kTileGroupOfProcessor = 32;
 
 }  // namespace
@@ -59,15 +60,16 @@ vk::raii::Pipeline OpenedDevice::compiled(Program program) const {
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device(), vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
-  const std::array<std::uint32_t, 5> values{
+  const std::array<std::uint32_t, 6> values{
       static_cast<std::uint32_t>(program.geometry), program.has_picture ? VK_TRUE : VK_FALSE,
       static_cast<std::uint32_t>(program.interpolation), is_processor_ ? VK_TRUE : VK_FALSE,
-      is_processor_ ? kTileGroupOfProcessor : kTileGroup};
+      is_processor_ ? kTileGroupOfProcessor : kTileGroup, program.has_patterns ? VK_TRUE : VK_FALSE};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
                            vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),
                            vk::SpecializationMapEntry(kInterpolationConstant, 2 * kSize, kSize),
                            vk::SpecializationMapEntry(kProcessorConstant, 3 * kSize, kSize),
-                           vk::SpecializationMapEntry(kTileGroupConstant, 4 * kSize, kSize)};
+                           vk::SpecializationMapEntry(kTileGroupConstant, 4 * kSize, kSize),
+                           vk::SpecializationMapEntry(kPatternsConstant, 5 * kSize, kSize)};
   const vk::SpecializationInfo constants(entries.size(), entries.data(), sizeof values, values.data());
   const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &constants);
   return device().createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));

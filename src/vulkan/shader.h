@@ -76,13 +76,15 @@ struct Program {
   TiledOptions::Interpolation interpolation = TiledOptions::Interpolation::LoopDeRose;
   bool interpolates = false;
   bool has_picture = false;
+  bool has_patterns = true;  // of the stop, in `adaptive`
 };
-inline constexpr std::size_t kVariants = 10;  // of a shader
+inline constexpr std::size_t kVariants = 20;  // of a shader
 inline constexpr std::size_t kPrograms = kVariants * kShaders;
 [[nodiscard]] inline std::size_t number_of(Program program) {
   const auto kind = program.interpolates ? static_cast<std::size_t>(program.interpolation)
                                          : static_cast<std::size_t>(program.geometry);
-  return kVariants * static_cast<std::size_t>(program.shader) + 2 * kind + (program.has_picture ? 1 : 0);
+  return kVariants * static_cast<std::size_t>(program.shader) + 4 * kind + (program.has_picture ? 2 : 0) +
+         (program.has_patterns ? 1 : 0);
 }
 
 [[nodiscard]] std::span<const std::uint32_t> code_of(Shader shader);

@@ -60,7 +60,9 @@ mat2x3 item_gain_slopes(uint item) {
 vec2 item_middle(uint item) { return vec2(item_float(item, 22u), item_float(item, 23u)); }
 vec2 item_window(uint item) { return vec2(item_float(item, 9u), item_float(item, 10u)); }  // its size, mm
 
-uint item_pattern(uint item) { return item_word(item, 14u); }  // from 1 on; 0: the iris is sharp
+// The code for stop patterns is left out of frames without them: lavapipe executes both sides of branches.
+layout(constant_id = 5) const bool HAS_PATTERNS = true;
+uint item_pattern(uint item) { return HAS_PATTERNS ? item_word(item, 14u) : 0u; }  // from 1 on; 0: the iris is sharp
 
 // Words of a group: its first item, their number, the item in whose wavelength the pupil is searched.
 uint group_word(uint group, uint k) { return texelFetch(item_texels, int(ITEM_WORDS / 4u * p.item_count + group))[k]; }
@@ -104,7 +106,7 @@ vec4 state_box(uint item) {
   return vec4(state(item, STATE_BOX), state(item, STATE_BOX + 1u), state(item, STATE_BOX + 2u),
               state(item, STATE_BOX + 3u));
 }
-uint pattern_of(uint item) { return floatBitsToUint(state(item, STATE_PATTERN)); }
+uint pattern_of(uint item) { return HAS_PATTERNS ? floatBitsToUint(state(item, STATE_PATTERN)) : 0u; }
 // The gains at a place in the window, mm.
 vec3 state_gain(uint item, vec2 at) {
   vec2 by = at - item_middle(item);
