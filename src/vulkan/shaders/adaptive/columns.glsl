@@ -4,6 +4,9 @@
 #define QUARTER_SIDE 8
 shared uint quarter_lists[4u * 32u];
 shared uint quarter_counts[4];
+#define MOST_WAITING 1024u
+shared uint waiting[MOST_WAITING];  // polygons
+shared uint waiting_count;
 
 ivec2 low_of_quarter(uint quarter) { return QUARTER_SIDE * ivec2(quarter & 1u, quarter >> 1u); }  // in the tile
 
@@ -48,15 +51,16 @@ void draw_column(uint number, ivec2 column_low) {
 }
 
 // Lists a polygon for the quarters that it reaches and does not cover.
-void list_by_quarter(uint number, Polygon q, ivec4 box) {
+void list_by_quarter(InTile one) {
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
     ivec2 low = tile_low + low_of_quarter(quarter), high = low + QUARTER_SIDE - 1;
+    ivec4 box = one.box;
     if (box.x > high.x || box.y > high.y || box.z < low.x || box.w < low.y) continue;
     bool is_full = box.x <= low.x && box.y <= low.y && box.z >= high.x && box.w >= high.y;
-    if (is_full && covers(q, vec2(low - base_of(q)), float(QUARTER_SIDE)))
-      add_plane(1u + quarter, q, vec2(tile_low - base_of(q)));
+    if (is_full && covers(one.q, vec2(low - base_of(one.q)), float(QUARTER_SIDE)))
+      add_plane(1u + quarter, one.q, vec2(tile_low - base_of(one.q)));
     else
-      quarter_lists[32u * quarter + atomicAdd(quarter_counts[quarter], 1u)] = number;
+      quarter_lists[32u * quarter + atomicAdd(quarter_counts[quarter], 1u)] = one.number;
   }
 }
 
@@ -65,4 +69,47 @@ void draw_quarters() {
   ivec2 low = tile_low + low_of_quarter(quarter) + ivec2(gl_LocalInvocationIndex % 8u, 0);
   for (; j < count; ++j) draw_column(quarter_lists[32u * quarter + j], low);
   check_end(j, count);
+}
+
+// Draws the polygons that wait.
+void draw_waiting() {
+  uint t = gl_LocalInvocationIndex, count = waiting_count, from = 0u;
+  for (; from < count; from += 32u) {
+    if (t < 4u) quarter_counts[t] = 0u;
+    barrier();
+    if (from + t < count) list_by_quarter(in_tile(waiting[from + t]));
+    barrier();
+    draw_quarters();
+    barrier();
+  }
+  check_end(from, count);
+}
+
+// Draws polygons of few pixels and corners, one an invocation. The others wait.
+void draw_few_pixels(uint number) {
+  InTile one = in_tile(number);
+  ivec2 extent = one.box.zw - one.box.xy + 1;
+  ivec4 quarters = (one.box - tile_low.xyxy) / QUARTER_SIDE;
+  int quarter_count = (quarters.z - quarters.x + 1) * (quarters.w - quarters.y + 1);
+  uint corners = count_of(one.q);
+  if (corners < 3u || (corners <= 4u && extent.x * extent.y <= p.small_px * quarter_count))
+    draw_small(one.q, one.box);
+  else
+    waiting[atomicAdd(waiting_count, 1u)] = number;
+}
+
+// Draws a part of the tile's list; returns where it ended. The two kinds of polygons have loops of their own, as
+// processors would execute the code for both.
+uint draw_by_columns(uint from, uint end) {
+  uint t = gl_LocalInvocationIndex;
+  while (from < end) {
+    if (t == 0u) waiting_count = 0u;
+    barrier();
+    uint least = min(end, from + MOST_WAITING);  // all of them may have to wait
+    for (; from < least; from += 32u)
+      if (from + t < least) draw_few_pixels(texelFetch(list_texels, int(from + t)).x);
+    barrier();
+    draw_waiting();
+  }
+  return from;
 }

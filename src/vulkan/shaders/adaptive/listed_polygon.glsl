@@ -1,3 +1,6 @@
+#ifndef FOUR_CORNERS
+#define FOUR_CORNERS false
+#endif
 // SPDX-License-Identifier: Apache-2.0
 // A polygon that cells.comp, merge.comp or cut.comp have listed, and its value in a pixel. Its edges are taken in fours
 // rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so that the last polygons of
@@ -54,7 +57,7 @@ float area_right_of_four(vec2 before, Corners q, vec2 pixel) {
 float covered_part(uint first, uint count, Corners corners, vec2 last, vec2 pixel) {
   float covered = area_right_of_four(last, corners, pixel);
   vec2 before = corners.d;
-  for (uint k = 4u; k < count; k += 4u) {
+  for (uint k = 4u; !FOUR_CORNERS && k < count; k += 4u) {
     Corners more = corners_from(first + k, count - k);
     covered += area_right_of_four(before, more, pixel);
     before = more.d;

@@ -25,6 +25,7 @@ layout(local_size_x_id = 4) in;  // 256, or 32 by columns
 #include "../stop/occluders.glsl"
 #endif
 #endif
+#define FOUR_CORNERS BY_COLUMN
 #include "listed_polygon.glsl"
 #include "tile_sums.glsl"
 
@@ -72,45 +73,41 @@ void add_plane(uint plane, Polygon q, vec2 origin) {
   }
 }
 
+// The polygon of an invocation in a tile.
+struct InTile {
+  uint number;
+  Polygon q;
+  ivec4 box;  // within the tile
+};
+
+InTile in_tile(uint number) {
+  ivec4 whole = box_of(number);
+  return InTile(number, polygon_of(number), ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1)));
+}
+
 #include "columns.glsl"
 #include "prepared.glsl"
-
-// The number of quarters of the tile that bounds reach, if it is drawn by them.
-int quarters_of(ivec4 box) {
-  ivec4 at = (box - tile_low.xyxy) / QUARTER_SIDE;
-  return BY_COLUMN ? (at.z - at.x + 1) * (at.w - at.y + 1) : 1;
-}
 
 // Draws the next polygons of the tile's list: first those of few pixels and of the whole tile, one an invocation, then
 // the others.
 void draw_some(uint from, uint end, ivec2 at) {
   uint t = gl_LocalInvocationIndex;
   if (t == 0u) others_count = 0u;
-  if (t < 4u) quarter_counts[t] = 0u;
   barrier();
   uint k = from + t;
   if (k < end) {
-    uint number = texelFetch(list_texels, int(k)).x;
-    Polygon q = polygon_of(number);
-    ivec4 whole = box_of(number), box = ivec4(max(whole.xy, tile_low), min(whole.zw, tile_low + TILE_SIDE - 1));
-    ivec2 extent = box.zw - box.xy + 1;
-    vec2 origin = vec2(tile_low - base_of(q));
-    if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers(q, origin, float(TILE_SIDE)))
-      add_plane(0u, q, origin);
-    else if (extent.x * extent.y <= p.small_px * quarters_of(box) || (BY_COLUMN && count_of(q) < 3u))
-      draw_small(q, box);
-    else if (BY_COLUMN)
-      list_by_quarter(number, q, box);
+    InTile one = in_tile(texelFetch(list_texels, int(k)).x);
+    ivec2 extent = one.box.zw - one.box.xy + 1;
+    vec2 origin = vec2(tile_low - base_of(one.q));
+    if (extent.x == TILE_SIDE && extent.y == TILE_SIDE && covers(one.q, origin, float(TILE_SIDE)))
+      add_plane(0u, one.q, origin);
+    else if (extent.x * extent.y <= p.small_px)
+      draw_small(one.q, one.box);
     else
-      others[atomicAdd(others_count, 1u)] = number;
+      others[atomicAdd(others_count, 1u)] = one.number;
   }
   barrier();
-  if (BY_COLUMN) {
-    draw_quarters();
-    barrier();
-  } else {
-    draw_others(at);
-  }
+  draw_others(at);
 }
 
 // A number of the tile's plane and of that of a pixel's quarter, exactly.
@@ -167,7 +164,11 @@ void main() {
   begin_sums();
   barrier();
   uint from = task.from;
-  for (; from < task.end; from += invocations) draw_some(from, task.end, at);
+  if (BY_COLUMN) {
+    from = draw_by_columns(from, task.end);
+  } else {
+    for (; from < task.end; from += invocations) draw_some(from, task.end, at);
+  }
   check_end(from, task.end);
   finish_pixel(task.split, 0, at);
   if (!BY_COLUMN) return;
