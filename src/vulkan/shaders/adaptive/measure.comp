@@ -23,23 +23,28 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define SQUARED_ABOUT_MEAN (4.0 / 45.0)   // of a parabola of height 1
 #define SIDES_PART 0.3                    // of the bends of sides that edges show; chosen, not derived
 
-// Each ray's pixel; its transmission, -1 if it fails; its largest height at a rim; and the point farthest outside at
-// which it crosses the stop.
-shared vec2 places[256];
-shared float transmissions[256];
-shared float rims[256];
-shared vec2 stops[256];
-shared float iris_distances[256];  // of that point, < 0 inside
+// What is read together lies together, and is read once: lavapipe reads each word of shared memory in a loop. Each ray's
+// pixel; its transmission, -1 if it fails; and its largest height at a rim.
+shared vec4 ray_values[256];
+// The point farthest outside at which it crosses the stop, and the point's distance from the iris, < 0 inside.
+shared vec3 stop_values[256];
 shared vec2 last_stops[256];  // of items with a stop pattern: where the ray crosses the stop last
 #ifdef OCCLUDERS
 shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
 #endif
-shared float densities[256];  // of cells, with the sign of their area; 0: none
+// Of cells: their density, with the sign of their area, 0 if there is none; the square of their value, times their area
+// in the frame.
+shared vec2 cell_values[256];
 shared uint histogram[BINS];
 
 uint crossings_of_group = 0u;
 uint pattern = 0u;          // of the item
 uint sharp_crossings = 0u;  // where the iris is sharp
+
+// The values of the rays at the corners of the invocation's cell, and of the ray about which second differences are
+// taken: itself, left, right, above, below.
+vec4 corner_rays[4], near_rays[5];
+vec3 corner_stops[4], near_stops[5];
 
 struct Cell {
   bool is_drawn;
@@ -56,8 +61,32 @@ float open_part(vec4 at) {
   return clamp(0.5 - mean / max(abs(slope.x) + abs(slope.y), 1e-12), 0.0, 1.0);
 }
 
-// As blocked().
-float blocked_at(uint k) { return max(rims[k] - 1.0, iris_distances[k]); }
+bool is_cell() { return gl_LocalInvocationID.x < COARSE_CELLS && gl_LocalInvocationID.y < COARSE_CELLS; }
+
+// The rays at the corners of the invocation's cell; of invocations without one, some rays.
+uvec4 rays_at_corners() {
+  uint k = gl_LocalInvocationIndex;
+  return is_cell() ? uvec4(k, k + 1u, k + 17u, k + 16u) : uvec4(k);
+}
+
+// The ray about which the cell's second differences are taken.
+uint ray_inside() {
+  uvec2 at = clamp(gl_LocalInvocationID.xy, uvec2(1u), uvec2(14u));
+  return 16u * at.y + at.x;
+}
+
+void read_rays() {
+  uvec4 v = rays_at_corners();
+  uint inside = ray_inside();
+  uint near[5] = uint[5](inside, inside - 1u, inside + 1u, inside - 16u, inside + 16u);
+  for (int j = 0; j < 4; ++j) corner_rays[j] = ray_values[v[j]];
+  for (int j = 0; j < 4; ++j) corner_stops[j] = stop_values[v[j]];
+  for (int j = 0; j < 5; ++j) near_rays[j] = ray_values[near[j]];
+  for (int j = 0; j < 5; ++j) near_stops[j] = stop_values[near[j]];
+}
+
+// As blocked(), at a corner.
+float blocked_at(int corner) { return max(corner_rays[corner].w - 1.0, corner_stops[corner].z); }
 
 // The mean transmittance of the item's stop pattern over a cell.
 float transmitted_by(uvec4 v) {
@@ -65,16 +94,24 @@ float transmitted_by(uvec4 v) {
   return transmittance_at(pattern, 0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b), ALL_EDGES);
 }
 
-Cell cell_at(uint k, float flux_a_transmission) {
+vec2 lowest_place() {
+  return min(min(corner_rays[0].xy, corner_rays[1].xy), min(corner_rays[2].xy, corner_rays[3].xy));
+}
+vec2 highest_place() {
+  return max(max(corner_rays[0].xy, corner_rays[1].xy), max(corner_rays[2].xy, corner_rays[3].xy));
+}
+
+// The invocation's cell.
+Cell find_cell(float flux_a_transmission) {
   Cell cell = Cell(false, false, 0.0, 0.0, 0.0, 0.0, 0.0);
-  if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return cell;
-  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+  if (!is_cell()) return cell;
+  uvec4 v = rays_at_corners();
   float transmission = 0.0;
   for (int j = 0; j < 4; ++j) {
-    if (transmissions[v[j]] < 0.0) return cell;
-    transmission += 0.25 * transmissions[v[j]];
+    if (corner_rays[j].z < 0.0) return cell;
+    transmission += 0.25 * corner_rays[j].z;
   }
-  cell.open = open_part(vec4(blocked_at(v.x), blocked_at(v.y), blocked_at(v.z), blocked_at(v.w)));
+  cell.open = open_part(vec4(blocked_at(0), blocked_at(1), blocked_at(2), blocked_at(3)));
   cell.has_edge = cell.open < 1.0;
   if (pattern != 0u) cell.open *= transmitted_by(v);
 #ifdef OCCLUDERS
@@ -83,45 +120,39 @@ Cell cell_at(uint k, float flux_a_transmission) {
     cell.open *= picture_over(0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b));
   }
 #endif
-  cell.area_px = 0.5 * cross2(places[v.z] - places[v.x], places[v.w] - places[v.y]);
-  cell.length_px = 0.7 * max(length(places[v.z] - places[v.x]), length(places[v.w] - places[v.y]));
+  vec2 down = corner_rays[2].xy - corner_rays[0].xy, up = corner_rays[3].xy - corner_rays[1].xy;  // diagonals
+  cell.area_px = 0.5 * cross2(down, up);
+  cell.length_px = 0.7 * max(length(down), length(up));
   cell.flux = transmission * flux_a_transmission;
   cell.density = cell.flux / max(abs(cell.area_px), 1.0);
-  vec2 low = min(min(places[v.x], places[v.y]), min(places[v.z], places[v.w]));
-  vec2 high = max(max(places[v.x], places[v.y]), max(places[v.z], places[v.w]));
-  vec2 reach = 0.5 * (high - low) + 1.0;
+  vec2 low = lowest_place(), high = highest_place(), reach = 0.5 * (high - low) + 1.0;
   cell.is_drawn = cell.open > 0.0 && all(lessThan(low - reach, vec2(p.width, p.height))) &&
                   all(greaterThan(high + reach, vec2(0.0)));
   return cell;
 }
 
-bool has_neighbours(uint k, uint step_by) {
-  return transmissions[k - step_by] >= 0.0 && transmissions[k] >= 0.0 && transmissions[k + step_by] >= 0.0;
-}
-
-// The ray about which a cell's second differences are taken.
-uint ray_inside() {
-  uvec2 at = clamp(gl_LocalInvocationID.xy, uvec2(1u), uvec2(14u));
-  return 16u * at.y + at.x;
-}
+bool has_neighbours_in_row() { return min(min(near_rays[0].z, near_rays[1].z), near_rays[2].z) >= 0.0; }
+bool has_neighbours_in_column() { return min(min(near_rays[0].z, near_rays[3].z), near_rays[4].z) >= 0.0; }
+vec2 bend_of_row() { return near_rays[1].xy - 2.0 * near_rays[0].xy + near_rays[2].xy; }
+vec2 bend_of_column() { return near_rays[3].xy - 2.0 * near_rays[0].xy + near_rays[4].xy; }
 
 // The squared distances below are means over the cell, of an edge that is drawn from the one that it stands for.
 // Straight sides of cells and parts, whose images bend.
 float squared_sag_of_sides() {
-  uint k = ray_inside();
-  vec2 x = vec2(1.0), y = vec2(1.0);
-  if (has_neighbours(k, 1u)) x = places[k - 1u] - 2.0 * places[k] + places[k + 1u];
-  if (has_neighbours(k, 16u)) y = places[k - 16u] - 2.0 * places[k] + places[k + 16u];
+  vec2 x = has_neighbours_in_row() ? bend_of_row() : vec2(1.0);
+  vec2 y = has_neighbours_in_column() ? bend_of_column() : vec2(1.0);
   return SIDES_PART * (dot(x, x) + dot(y, y)) / 64.0;
 }
 
+vec2 corners_along_row() { return corner_rays[1].xy - corner_rays[0].xy + corner_rays[2].xy - corner_rays[3].xy; }
+vec2 corners_along_column() { return corner_rays[3].xy - corner_rays[0].xy + corner_rays[2].xy - corner_rays[1].xy; }
+
 // An edge where a function is 0 that is linear in each part of the grid, with the right mean. x, y: second differences of
 // the function; at: its values at the corners.
-float squared_edge_sag(uint k, vec4 at, float x, float y) {
+float squared_edge_sag(vec4 at, float x, float y) {
   vec2 slope = 0.5 * vec2(at.y - at.x + at.z - at.w, at.w - at.x + at.z - at.y);
   float bend = abs(x) + abs(y) + abs(at.x - at.y + at.z - at.w);
-  vec2 along_x = 0.5 * (places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u]);
-  vec2 along_y = 0.5 * (places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u]);
+  vec2 along_x = 0.5 * corners_along_row(), along_y = 0.5 * corners_along_column();
   float cells = TYPICAL_BEND * bend / 8.0 / max(dot(slope, slope), 1e-12);
   float displaced = min(cells * length(slope.x * along_x + slope.y * along_y), length(along_x) + length(along_y));
   return SQUARED_ABOUT_MEAN * displaced * displaced;
@@ -132,22 +163,22 @@ bool has_edge(vec4 at) {
 }
 
 // The mean squared distance of the edges in a cell from what they stand for.
-float squared_sag(uint k) {
-  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
-  uint inside = ray_inside();
-  if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return UNKNOWN_SAG_SQUARED;
+float squared_sag() {
+  if (!has_neighbours_in_row() || !has_neighbours_in_column()) return UNKNOWN_SAG_SQUARED;
   float squared = squared_sag_of_sides();
-  vec4 rim = vec4(rims[v.x], rims[v.y], rims[v.z], rims[v.w]);
+  vec4 rim = vec4(corner_rays[0].w, corner_rays[1].w, corner_rays[2].w, corner_rays[3].w);
   if (has_edge(rim - 1.0))
-    squared += squared_edge_sag(k, rim, rims[inside - 1u] - 2.0 * rims[inside] + rims[inside + 1u],
-                                rims[inside - 16u] - 2.0 * rims[inside] + rims[inside + 16u]);
-  vec4 iris = vec4(iris_distances[v.x], iris_distances[v.y], iris_distances[v.z], iris_distances[v.w]);
+    squared += squared_edge_sag(rim, near_rays[1].w - 2.0 * near_rays[0].w + near_rays[2].w,
+                                near_rays[3].w - 2.0 * near_rays[0].w + near_rays[4].w);
+  vec4 iris = vec4(corner_stops[0].z, corner_stops[1].z, corner_stops[2].z, corner_stops[3].z);
   if (has_edge(iris)) {
     // The iris itself is exact: only what moves its edge along its normal counts.
-    vec2 normal = normalize(stops[v.x] + stops[v.y] + stops[v.z] + stops[v.w] + vec2(1e-20));
-    vec4 at = vec4(dot(normal, stops[v.x]), dot(normal, stops[v.y]), dot(normal, stops[v.z]), dot(normal, stops[v.w]));
-    squared += squared_edge_sag(k, at, dot(normal, stops[inside - 1u] - 2.0 * stops[inside] + stops[inside + 1u]),
-                                dot(normal, stops[inside - 16u] - 2.0 * stops[inside] + stops[inside + 16u]));
+    vec2 a = corner_stops[0].xy, b = corner_stops[1].xy, c = corner_stops[2].xy, d = corner_stops[3].xy;
+    vec2 normal = normalize(a + b + c + d + vec2(1e-20));
+    vec2 in_row = near_stops[1].xy - 2.0 * near_stops[0].xy + near_stops[2].xy;
+    vec2 in_column = near_stops[3].xy - 2.0 * near_stops[0].xy + near_stops[4].xy;
+    squared += squared_edge_sag(vec4(dot(normal, a), dot(normal, b), dot(normal, c), dot(normal, d)),
+                                dot(normal, in_row), dot(normal, in_column));
   }
   return squared;
 }
@@ -180,9 +211,8 @@ vec2 seen_difference(uint k, uint step_by, bool is_dirt) {
 // to its plane.
 float squared_bend_of_map(uint k, bool is_dirt) {
   uint inside = ray_inside();
-  if (!has_neighbours(inside, 1u) || !has_neighbours(inside, 16u)) return 1.0;
-  vec2 px = places[k + 1u] - places[k] + places[k + 17u] - places[k + 16u];
-  vec2 py = places[k + 16u] - places[k] + places[k + 17u] - places[k + 1u];
+  if (!has_neighbours_in_row() || !has_neighbours_in_column()) return 1.0;
+  vec2 px = corners_along_row(), py = corners_along_column();
   vec2 sa = seen_point(k, is_dirt), sb = seen_point(k + 1u, is_dirt);
   vec2 sc = seen_point(k + 17u, is_dirt), sd = seen_point(k + 16u, is_dirt);
   vec2 sx = sb - sa + sc - sd, sy = sd - sa + sc - sb;
@@ -191,7 +221,7 @@ float squared_bend_of_map(uint k, bool is_dirt) {
   for (uint axis = 0u; axis < 2u; ++axis) {
     uint by = axis == 0u ? 1u : 16u;
     vec2 of_stop = seen_difference(inside, by, is_dirt);
-    vec2 of_pixel = places[inside - by] - 2.0 * places[inside] + places[inside + by];
+    vec2 of_pixel = axis == 0u ? bend_of_row() : bend_of_column();
     vec2 off = (px * cross2(of_stop, sy) + py * cross2(sx, of_stop)) / det - of_pixel;
     sum += dot(off, off) / 64.0;
   }
@@ -226,13 +256,13 @@ float picture_roughness_px(Cell cell) {
 // The density of a cell some steps from another along an axis; 0: there is none.
 float density_at(uint k, uint axis, int steps) {
   int at = int(axis == 0u ? gl_LocalInvocationID.x : gl_LocalInvocationID.y) + steps;
-  return at < 0 || at >= int(COARSE_CELLS) ? 0.0 : densities[uint(int(k) + steps * (axis == 0u ? 1 : 16))];
+  return at < 0 || at >= int(COARSE_CELLS) ? 0.0 : cell_values[uint(int(k) + steps * (axis == 0u ? 1 : 16))].x;
 }
 
 // The squared part of a cell's density by which a linear function is off. Beside rays that fail, where densities change
 // most, it is taken from two cells on the other side.
 float squared_bend(uint k) {
-  float sum = 0.0, here = densities[k];
+  float sum = 0.0, here = cell_values[k].x;
   for (uint axis = 0u; axis < 2u; ++axis) {
     float before = density_at(k, axis, -1), after = density_at(k, axis, 1);
     vec3 three = before == 0.0  ? vec3(here, after, density_at(k, axis, 2))
@@ -247,37 +277,29 @@ float squared_bend(uint k) {
   return sum;
 }
 
-// The part of a cell's bounds that lies in the frame.
-float part_in_frame(uint k) {
-  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
-  vec2 low = min(min(places[v.x], places[v.y]), min(places[v.z], places[v.w]));
-  vec2 high = max(max(places[v.x], places[v.y]), max(places[v.z], places[v.w]));
+// The part of the cell's bounds that lies in the frame.
+float part_in_frame() {
+  vec2 low = lowest_place(), high = highest_place();
   vec2 inside = clamp(min(high, vec2(p.width, p.height)) - max(low, vec2(0.0)), vec2(0.0), high - low);
   vec2 part = inside / max(high - low, vec2(1e-6));
   return part.x * part.y;
 }
 
 // Squared errors of a cell of which some rays fail and others carry light, which is drawn in part only: as of a cell
-// beside it with a quarter of the light. gain: of the item.
-float squared_light_beside_failing(uint k, float gain) {
-  if (gl_LocalInvocationID.x >= COARSE_CELLS || gl_LocalInvocationID.y >= COARSE_CELLS) return 0.0;
-  uvec4 v = uvec4(k, k + 1u, k + 17u, k + 16u);
+// beside it with a quarter of the light.
+float squared_light_beside_failing() {
+  if (!is_cell()) return 0.0;
   bool any_fails = false, any_open = false;
   for (int j = 0; j < 4; ++j) {
-    bool fails = transmissions[v[j]] < 0.0;
+    bool fails = corner_rays[j].z < 0.0;
     any_fails = any_fails || fails;
-    any_open = any_open || (!fails && blocked_at(v[j]) <= 0.0);
+    any_open = any_open || (!fails && blocked_at(j) <= 0.0);
   }
   if (!any_fails || !any_open) return 0.0;
-  float largest_error = 0.0;
-  for (int side = 0; side < 4; ++side) {
-    int steps = (side & 1) * 2 - 1;
-    float value = gain * density_at(k, uint(side) >> 1u, steps);
-    if (value == 0.0) continue;
-    uint other = uint(int(k) + steps * (side < 2 ? 1 : 16));
-    float area = 0.5 * abs(cross2(places[other + 17u] - places[other], places[other + 16u] - places[other + 1u]));
-    largest_error = max(largest_error, value * value * area * part_in_frame(other));
-  }
+  uint k = gl_LocalInvocationIndex, x = gl_LocalInvocationID.x, y = gl_LocalInvocationID.y;
+  float before_x = x > 0u ? cell_values[k - 1u].y : 0.0, after_x = x + 1u < COARSE_CELLS ? cell_values[k + 1u].y : 0.0;
+  float before_y = y > 0u ? cell_values[k - 16u].y : 0.0, after_y = y + 1u < COARSE_CELLS ? cell_values[k + 16u].y : 0.0;
+  float largest_error = max(max(before_x, after_x), max(before_y, after_y));
   return 0.25 * largest_error;
 }
 
@@ -316,11 +338,8 @@ void keep_corner(uint k, uint item, vec2 at, vec4 ray, vec2 points[MAX_CROSSINGS
     if (here > distance) farthest = points[c];
     distance = max(distance, here);
   }
-  places[k] = ray.xy;
-  transmissions[k] = failed(ray) ? -1.0 : ray.z;
-  rims[k] = ray.w;
-  stops[k] = farthest;
-  iris_distances[k] = distance;
+  ray_values[k] = vec4(ray.xy, failed(ray) ? -1.0 : ray.z, ray.w);
+  stop_values[k] = vec3(farthest, distance);
   if (pattern != 0u) last_stops[k] = points[sharp_crossings];
 #ifdef OCCLUDERS
   if (HAS_PICTURE) last_stops[k] = points[crossings_of_group - 1u];
@@ -348,9 +367,9 @@ void trace_corners(uint item, vec4 box) {
 
 // Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie
 // elsewhere.
-vec4 sum_errors(Cell cell, float value, float inside_frame, float gain) {
+vec4 sum_errors(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
-  vec2 moved = places[k] - middle_place;
+  vec2 moved = corner_rays[0].xy - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
   float inside = area * cell.open * squared_bend(k);
   float merged = cell.has_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
@@ -367,7 +386,7 @@ vec4 sum_errors(Cell cell, float value, float inside_frame, float gain) {
   sums_of[k] = !cell.is_drawn ? vec4(0.0)
                               : inside_frame * vec4(value * value * inside, value * value * merged,
                                                     cell.flux * cell.open, area * cell.open);
-  sums_of[k].x += squared_light_beside_failing(k, gain);
+  sums_of[k].x += squared_light_beside_failing();
   sum_up();
   vec4 all = sums_of[0];
   barrier();
@@ -378,7 +397,7 @@ vec4 sum_errors(Cell cell, float value, float inside_frame, float gain) {
 // the frame.
 vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
   bool is_edge = cell.is_drawn && cell.has_edge;
-  float edge = is_edge ? cell.length_px * squared_sag(gl_LocalInvocationIndex) : 0.0;
+  float edge = is_edge ? cell.length_px * squared_sag() : 0.0;
   float sharp = 0.0;
   if (pattern != 0u && cell.is_drawn) {
     float area = max(abs(cell.area_px), 1.0);
@@ -396,7 +415,7 @@ vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
 // is not that of the fluxes: ghosts change their colour from one side to the other.
 vec2 compare_with_middle(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
-  vec2 moved = places[k] - middle_place;
+  vec2 moved = corner_rays[0].xy - middle_place;
   float scale = value / max(cell.density, 1e-37), weight = max(abs(cell.area_px), 1.0) * cell.open * inside_frame;
   float here = cell.density * scale, there = middle_density * scale;
   bool counts = cell.is_drawn && cell.density > 0.0;
@@ -415,7 +434,7 @@ vec2 compare_with_middle(Cell cell, float value, float inside_frame) {
 float find_extent(Cell cell) {
   uint k = gl_LocalInvocationIndex;
   vec2 reach = vec2(p.width, p.height);
-  vec2 at_frame = clamp(places[k], -reach, 2.0 * reach);
+  vec2 at_frame = clamp(corner_rays[0].xy, -reach, 2.0 * reach);
   sums_of[k] = cell.is_drawn ? vec4(-at_frame, at_frame) : vec4(-FAILED);
   largest();
   vec2 extent = sums_of[0].zw + sums_of[0].xy;
@@ -427,17 +446,19 @@ void measure(uint item, bool is_middle, vec4 box) {
   pattern = item_pattern(item);
   sharp_crossings = HAS_PICTURE ? 0u : crossings_of_group - (pattern != 0u ? 1u : 0u);
   trace_corners(item, box);
-  if (is_middle) middle_place = places[k];
+  read_rays();
+  if (is_middle) middle_place = corner_rays[0].xy;
   float cell_mm2 = box.z * box.w / float(COARSE_CELLS * COARSE_CELLS);
-  Cell cell = cell_at(k, cell_mm2 * item_irradiance(item));
-  densities[k] = cell.area_px < 0.0 ? -cell.density : cell.density;
+  Cell cell = find_cell(cell_mm2 * item_irradiance(item));
+  vec3 gain = item_gain(item);
+  float mean_gain = sqrt(dot(gain, gain) / 3.0), value = cell.density * mean_gain, area = abs(cell.area_px);
+  float inside_frame = part_in_frame();
+  cell_values[k] = vec2(cell.area_px < 0.0 ? -cell.density : cell.density,
+                        value > 0.0 ? value * value * area * inside_frame : 0.0);
   if (is_middle) middle_density = cell.density;
   barrier();
-  vec3 gain = item_gain(item);
-  float mean_gain = sqrt(dot(gain, gain) / 3.0), value = cell.density * mean_gain;
-  float inside_frame = cell.is_drawn ? part_in_frame(k) : 0.0;
-  if (cell.is_drawn) add_to_histogram(abs(cell.area_px) * cell.open * inside_frame, cell, gain);
-  vec4 all = sum_errors(cell, value, inside_frame, mean_gain);
+  if (cell.is_drawn) add_to_histogram(area * cell.open * inside_frame, cell, gain);
+  vec4 all = sum_errors(cell, value, inside_frame);
   vec2 edges = sum_edge_errors(cell, value, inside_frame);
   vec2 other = compare_with_middle(cell, value, inside_frame);
   float extent = find_extent(cell);
