@@ -121,10 +121,10 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   std::vector<std::uint32_t> words;
   words.reserve(kItemWords * items.size() + kGroupWords * groups.size());
   for (const ItemRecord& item : items) std::ranges::copy(std::bit_cast<ItemWords>(item), std::back_inserter(words));
-  for (const GroupRecord& group : groups) std::ranges::copy(std::bit_cast<GroupWords>(group), std::back_inserter(words));
+  for (const GroupRecord& group : groups)
+    std::ranges::copy(std::bit_cast<GroupWords>(group), std::back_inserter(words));
   device_.upload(Slot::Items, words);
-  work_.uploaded_bytes +=
-      4 * (starts.size() + bounds.size() + words.size());
+  work_.uploaded_bytes += 4 * (starts.size() + bounds.size() + words.size());
   parameters_.bound_count = narrow(bounds.size() / 8);
 }
 

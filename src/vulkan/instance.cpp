@@ -16,7 +16,7 @@ namespace contrejour::inline internal::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr std::uint32_t kGroupSize = 256, kSharedBytes = 20 << 10U;  // of the largest shader (adaptive/measure.comp)
+constexpr std::uint32_t kGroupSize = 256, kSharedBytes = 24 << 10U;  // of the largest shader (adaptive/measure.comp)
 constexpr std::uint64_t kSmallestRange = std::uint64_t{64} << 20U;
 constexpr std::uint32_t kFewestTexels = 1U << 24U;
 

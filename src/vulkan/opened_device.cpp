@@ -61,8 +61,8 @@ vk::raii::Pipeline OpenedDevice::compiled(Program program) const {
   const vk::raii::ShaderModule module(device(), vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
   const std::array<std::uint32_t, 6> values{
-      static_cast<std::uint32_t>(program.geometry), program.has_picture ? VK_TRUE : VK_FALSE,
-      static_cast<std::uint32_t>(program.interpolation), is_processor_ ? VK_TRUE : VK_FALSE,
+      static_cast<std::uint32_t>(program.geometry),       program.has_picture ? VK_TRUE : VK_FALSE,
+      static_cast<std::uint32_t>(program.interpolation),  is_processor_ ? VK_TRUE : VK_FALSE,
       is_processor_ ? kTileGroupOfProcessor : kTileGroup, program.has_patterns ? VK_TRUE : VK_FALSE};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
                            vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of `adaptive` that a device draws by its own data flow, against the CPU's at a thirtieth of the error.
+#include <cmath>
+#include <numbers>
+
 #include "device_frames.h"
 
 using namespace contrejour;
@@ -55,6 +58,21 @@ TEST_CASE("adaptive draws near lights and a window of the frame on the device") 
   std::vector<Light> near = kTwoLights;
   near.back().distance_mm = 800.0;
   check_near(device, lens, near, settings);
+}
+
+TEST_CASE("adaptive finds pupils on the device whatever the direction of the light about the axis") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("tessar", 6, 11.0);
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.frame.pixel_pitch_mm *= 2.0;
+  constexpr double kField_rad = 0.16;
+  for (const double degrees : {0.0, 37.0, 90.0, 135.0, 233.0, 270.0}) {
+    CAPTURE(degrees);
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const Light light{.direction = direction_from_angles(kField_rad * std::cos(angle), kField_rad * std::sin(angle))};
+    check_near(device, lens, {&light, 1}, settings);
+  }
 }
 
 TEST_CASE("edges of ghosts lie where the CPU draws them, whatever bends the map to the stop") {

@@ -147,8 +147,8 @@ FrameItems list_items(const PlannedFrame& planned, const FramePlan& plan, const 
   out.paths = kept->get(planned.lens, plan.tables, out.windows.front().z_mm);
   const StepsByWavelength steps(planned.lens, plan.tables);
   for (std::size_t k = 0; k < plan.lights.size(); ++k)
-    out.starts.push_back(start_of(steps.at(out.lambda_nm.front()), plan.ghosts.front(), plan.lights[k], out.frames[k],
-                                  out.windows[k]));
+    out.starts.push_back(
+        start_of(steps.at(out.lambda_nm.front()), plan.ghosts.front(), plan.lights[k], out.frames[k], out.windows[k]));
   for_each_pair_with_passes(plan, [&](std::size_t g, std::size_t k, std::span<const PlannedPass> passes) {
     if (!passes.empty()) add_group(plan, stops, {g, k}, passes, out);
   });
@@ -189,9 +189,10 @@ Result<DrawnFlare> draw_on_device(KeptDevice& kept, const PlannedFrame& planned,
       [&](std::size_t layer, Image& image, const Context& drawing) {
         const auto& [items, groups] = all.layers[layer];
         const double error = options.error * std::sqrt(plan->error_fraction);
-        return kept.device->draw(AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items,
-                                             groups, error, plan->min_peak, kept.use, kept.starbursts, all.has_axial_symmetry},
-                                 image, drawing);
+        return kept.device->draw(
+            AdaptiveJob{frame, iris, all.paths, patterns, dirt, front_gap_mm, all.starts, items, groups, error,
+                        plan->min_peak, kept.use, kept.starbursts, all.has_axial_symmetry},
+            image, drawing);
       },
       context);
 }

@@ -120,11 +120,11 @@ vec3 state_gain(uint item, vec2 at) {
 
 #define LAST_LEVEL 3u  // of the search
 #define ALL_ITEMS_LEVEL 2u  // from which on it is at the wavelengths of all items, whose pupils may lie beside each other
-#define SCANS 4u  // workgroups that scan a group's meridian, at the first level
+#define SCANS 2u  // workgroups that scan a group's meridian, at the first level
 // A further level follows the first one: it scans the meridian at a group's first and last wavelengths if light passes at
 // no other. Its boxes and bounds are two, for each of them.
 #define OUTER_LEVEL 4u
-#define OUTER_SCANS 2u  // workgroups that scan it
+#define OUTER_SCANS 1u  // workgroups that scan it
 bool searches_window(uint level) { return level == 0u || level >= OUTER_LEVEL; }
 // Levels whose boxes lie along the plane of the light and the axis; the halves of a box by its second side mirror each
 // other. Later boxes, and all without axial symmetry, lie along the frame: tiles are filled faster by cells that do.

@@ -152,6 +152,7 @@ void main() {
   if (!(box.z > 0.0)) return;
   if (!searches_window(level) && level < LAST_LEVEL) {
     vec4 before = box_at(level == 1u ? number_of_level(group, first_level(group)) : number - 1u);
+    if (is_mirrored(level - 1u) && !is_mirrored(level)) before = bounds_along_frame(meridian_of(item), before);
     if (box.z * box.w > SHRINK_ENOUGH * before.z * before.w) {  // the search is over
       if (block == 0u && k < 4u) found[LEVEL_WORDS * number + 4u + k] = cells[k & 1u];
       return;
