@@ -159,8 +159,8 @@ vec4 searched_part(uint level, vec4 box) {
   return is_mirrored(level) ? vec4(box.x, box.y + half_width, box.z, half_width) : box;
 }
 
-// Of a level of a group, number_of_level().
 #define LEVEL_WORDS 12u
+// A group's level among all groups' levels; what was found at it, once the level is done.
 uint number_of_level(uint group, uint level) { return group * LEVELS + level; }
 vec4 box_at(uint number) { return uintBitsToFloat(texelFetch(found_texels, int(3u * number))); }
 uvec4 cells_that_pass(uint number) { return texelFetch(found_texels, int(3u * number + 1u)); }

@@ -1,10 +1,8 @@
-#ifndef FOUR_CORNERS
-#define FOUR_CORNERS false
-#endif
 // SPDX-License-Identifier: Apache-2.0
 // A polygon that cells.comp, merge.comp or cut.comp have listed, and its value in a pixel. Its edges are taken in fours
 // rather than in loops: lavapipe ends all loops of an invocation after 65535 turns in all, so that the last polygons of
-// crowded tiles would be missing.
+// crowded tiles would be missing. Whoever includes this file defines FOUR_CORNERS: whether value_at() meets no polygons of
+// more.
 
 // The part of a line that lies in a pixel.
 float part_in_pixel(vec2 from, vec2 to) {

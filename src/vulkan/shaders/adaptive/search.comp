@@ -170,8 +170,8 @@ void main() {
     rays = is_outer ? rays_on_meridian(item, side, block % OUTER_SCANS, OUTER_SCANS)
                     : rays_on_meridian(item, side, block - grid_blocks, SCANS);
   vec2 cell = scans ? (place_of(rays, k) - searched.xy) / step_mm : vec2(first_cell + gl_LocalInvocationID.xy);
-  bool at_all = level >= ALL_ITEMS_LEVEL && !is_outer;
-  uint first = at_all ? group_word(group, 0u) : item, count = at_all ? group_word(group, 1u) : 1u;
+  bool all_items = level >= ALL_ITEMS_LEVEL && !is_outer;
+  uint first = all_items ? group_word(group, 0u) : item, count = all_items ? group_word(group, 1u) : 1u;
   for (uint each = first; each < first + count; ++each) {
     trace_corners(each, rays);
     barrier();
