@@ -17,35 +17,34 @@ layout(local_size_x = 64) in;
 #include "state.glsl"
 #include "merged.glsl"
 
-// The second difference of the light along a row or column of rays; 0 if there are not three.
-float second_difference(ivec2 at, ivec2 along, inout float count) {
-  ivec2 before = at - along, after = at + along;
-  if (min(before.x, before.y) < 0 || max(after.x, after.y) >= int(side)) return 0.0;
-  vec4 a = ray_of(ray_at(uint(before.x), uint(before.y))), b = ray_of(ray_at(uint(at.x), uint(at.y)));
-  vec4 c = ray_of(ray_at(uint(after.x), uint(after.y)));
-  if (failed(a) || failed(c)) return 0.0;
-  count += 1.0;
-  return a.z - 2.0 * b.z + c.z;
+// The second differences of the light at two rays of a row or column, and how many there are, from the rays before and
+// after them as well.
+vec2 second_differences(uvec2 at, uvec2 along, vec4 first, vec4 second) {
+  uvec2 before = at - min(at, along), after = min(at + 2u * along, uvec2(side - 1u));
+  vec4 a = ray_of(ray_at(before.x, before.y)), d = ray_of(ray_at(after.x, after.y));
+  float change = second.z - first.z;
+  vec2 sum = vec2(0.0);
+  if (before != at && !failed(a)) sum += vec2(change - (first.z - a.z), 1.0);
+  if (after != at + along && !failed(d)) sum += vec2((d.z - second.z) - change, 1.0);
+  return sum;
 }
 
 // The mean, over an open cell, of what its light bends from the linear, as the rays around show: coatings transmit
 // light that is far from linear over a coarse cell.
-float light_bend() {
-  ivec2 at = ivec2(own % side, own / side);
-  float sum = 0.0;
-  for (int axis = 0; axis < 2; ++axis) {
-    float total = 0.0, count = 0.0;
-    for (int k = 0; k < 4; ++k)
-      total += second_difference(at + ivec2(k & 1, k >> 1), ivec2(1 - axis, axis), count);
-    sum += total / max(count, 1.0);
-  }
-  return -sum / 12.0;  // the mean of t (1 - t) / 2
+float light_bend(uvec4 v) {
+  uvec2 at = uvec2(own % side, own / side);
+  vec4 a = ray_of(v.x), b = ray_of(v.y), c = ray_of(v.z), d = ray_of(v.w);
+  vec2 by_row = second_differences(at, uvec2(1u, 0u), a, b) + second_differences(at + uvec2(0u, 1u), uvec2(1u, 0u), d, c);
+  vec2 by_column =
+      second_differences(at, uvec2(0u, 1u), a, d) + second_differences(at + uvec2(1u, 0u), uvec2(0u, 1u), b, c);
+  // The mean of t (1 - t) / 2 is 1 / 12.
+  return -(by_row.x / max(by_row.y, 1.0) + by_column.x / max(by_column.y, 1.0)) / 12.0;
 }
 
 // Returns false where the cell's triangles are to be drawn in its place.
 bool list_open(uvec4 v) {
   vec2 a = pixel_of(v.x), b = pixel_of(v.y), c = pixel_of(v.z), d = pixel_of(v.w);
-  float flux = max(triangle_flux(v.xyz) + triangle_flux(v.xzw) + 2.0 * triangle_weight * light_bend(), 0.0);
+  float flux = max(triangle_flux(v.xyz) + triangle_flux(v.xzw) + 2.0 * triangle_weight * light_bend(v), 0.0);
   if (floor(a) == floor(b) && floor(a) == floor(c) && floor(a) == floor(d)) {
     list_point(a, flux);
     return true;

@@ -5,8 +5,8 @@
 shared uint quarter_lists[4u * 32u];
 shared uint quarter_counts[4];
 #define MOST_WAITING 1024u
-shared uint waiting[MOST_WAITING];  // polygons
-shared uint waiting_count;
+shared uint waiting[MOST_WAITING];  // polygons; from the end on those that may cover a quarter
+shared uint waiting_count, large_count;
 
 ivec2 low_of_quarter(uint quarter) { return QUARTER_SIDE * ivec2(quarter & 1u, quarter >> 1u); }  // in the tile
 
@@ -50,13 +50,13 @@ void draw_column(uint number, ivec2 column_low) {
     add(row, inside * max(covered[row], 0.0) * (value + float(row) * gradient.y), gain);
 }
 
-// Lists a polygon for the quarters that it reaches and does not cover.
-void list_by_quarter(InTile one) {
+// Lists a polygon for the quarters that it reaches; of large polygons, for those that it does not cover.
+void list_by_quarter(InTile one, bool may_cover) {
   for (uint quarter = 0u; quarter < 4u; ++quarter) {
     ivec2 low = tile_low + low_of_quarter(quarter), high = low + QUARTER_SIDE - 1;
     ivec4 box = one.box;
     if (box.x > high.x || box.y > high.y || box.z < low.x || box.w < low.y) continue;
-    bool is_full = box.x <= low.x && box.y <= low.y && box.z >= high.x && box.w >= high.y;
+    bool is_full = may_cover && box.x <= low.x && box.y <= low.y && box.z >= high.x && box.w >= high.y;
     if (is_full && covers(one.q, vec2(low - base_of(one.q)), float(QUARTER_SIDE)))
       add_plane(1u + quarter, one.q, vec2(tile_low - base_of(one.q)));
     else
@@ -71,13 +71,14 @@ void draw_quarters() {
   check_end(j, count);
 }
 
-// Draws the polygons that wait.
-void draw_waiting() {
-  uint t = gl_LocalInvocationIndex, count = waiting_count, from = 0u;
+// Draws the polygons that wait, either the large ones or the others.
+void draw_waiting(bool large) {
+  uint t = gl_LocalInvocationIndex, count = large ? large_count : waiting_count, from = 0u;
   for (; from < count; from += 32u) {
     if (t < 4u) quarter_counts[t] = 0u;
     barrier();
-    if (from + t < count) list_by_quarter(in_tile(waiting[from + t]));
+    uint k = from + t;
+    if (k < count) list_by_quarter(in_tile(waiting[large ? MOST_WAITING - 1u - k : k]), large);
     barrier();
     draw_quarters();
     barrier();
@@ -88,28 +89,34 @@ void draw_waiting() {
 // Draws polygons of few pixels and corners, one an invocation. The others wait.
 void draw_few_pixels(uint number) {
   InTile one = in_tile(number);
-  ivec2 extent = one.box.zw - one.box.xy + 1;
-  ivec4 quarters = (one.box - tile_low.xyxy) / QUARTER_SIDE;
+  ivec4 box = one.box - tile_low.xyxy, quarters = box / QUARTER_SIDE;
+  int pixels = (box.z - box.x + 1) * (box.w - box.y + 1);
   int quarter_count = (quarters.z - quarters.x + 1) * (quarters.w - quarters.y + 1);
+  bvec2 before = lessThanEqual(box.xy, ivec2(0)), after = greaterThanEqual(box.zw, ivec2(TILE_SIDE - 1));
+  bvec2 first = greaterThanEqual(box.zw, ivec2(QUARTER_SIDE - 1)), second = lessThanEqual(box.xy, ivec2(QUARTER_SIDE));
+  bool may_cover = ((before.x && first.x) || (second.x && after.x)) && ((before.y && first.y) || (second.y && after.y));
   uint corners = count_of(one.q);
-  if (corners < 3u || (corners <= 4u && extent.x * extent.y <= p.small_px * quarter_count))
+  if (corners < 3u || (corners <= 4u && pixels <= p.small_px * quarter_count))
     draw_small(one.q, one.box);
+  else if (may_cover)
+    waiting[MOST_WAITING - 1u - atomicAdd(large_count, 1u)] = number;
   else
     waiting[atomicAdd(waiting_count, 1u)] = number;
 }
 
-// Draws a part of the tile's list; returns where it ended. The two kinds of polygons have loops of their own, as
-// processors would execute the code for both.
+// Draws a part of the tile's list; returns where it ended. Each kind of polygons has a loop of its own, as processors
+// would execute the code for all of them.
 uint draw_by_columns(uint from, uint end) {
   uint t = gl_LocalInvocationIndex;
   while (from < end) {
-    if (t == 0u) waiting_count = 0u;
+    if (t == 0u) waiting_count = large_count = 0u;
     barrier();
     uint least = min(end, from + MOST_WAITING);  // all of them may have to wait
     for (; from < least; from += 32u)
       if (from + t < least) draw_few_pixels(texelFetch(list_texels, int(from + t)).x);
     barrier();
-    draw_waiting();
+    draw_waiting(false);
+    draw_waiting(true);
   }
   return from;
 }
