@@ -146,8 +146,8 @@ struct AdaptiveJob {
   double least_peak = 0.0;  // FramePlan::min_peak
   PictureUse use = PictureUse::Read;
   std::span<const PlacedStarburst> starbursts = {};  // to be added to the picture
-  // Of all ghosts: small pupils lie in the plane of the light and the axis, and each half of a window mirrors the
-  // other.
+  // True if all ghosts have it: small pupils lie in the plane of the light and the axis, and each half of a window
+  // mirrors the other.
   bool has_axial_symmetry = true;
 };
 

@@ -23,8 +23,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define SQUARED_ABOUT_MEAN (4.0 / 45.0)   // of a parabola of height 1
 #define SIDES_PART 0.3                    // of the bends of sides that edges show; chosen, not derived
 
-// What is read together lies together, and is read once: lavapipe reads each word of shared memory in a loop. Each ray's
-// pixel; its transmission, -1 if it fails; and its largest height at a rim.
+// Values that are read together lie together, and are read once: lavapipe reads each word of shared memory in a loop. Each
+// ray's pixel; its transmission, -1 if it fails; and its largest height at a rim.
 shared vec4 ray_values[256];
 // The point farthest outside at which it crosses the stop, and the point's distance from the iris, < 0 inside.
 shared vec3 stop_values[256];
@@ -32,8 +32,7 @@ shared vec2 last_stops[256];  // of items with a stop pattern: where the ray cro
 #ifdef OCCLUDERS
 shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
 #endif
-// Of cells: their density, with the sign of their area, 0 if there is none; the square of their value, times their area
-// in the frame.
+// A cell's density, with the sign of its area, 0 if there is none; the square of its value, times its area in the frame.
 shared vec2 cell_values[256];
 shared uint histogram[BINS];
 
