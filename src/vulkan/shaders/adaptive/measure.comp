@@ -355,7 +355,8 @@ void trace_corners(uint item, vec4 box) {
   set_path(item);
   vec2 at = place_of(box, k), other_at = place_of(box, k + 128u);
   if (!ON_PROCESSOR) {
-    keep_corner(k, item, at, trace_ray(at.x, at.y), stop_points);
+    vec4 ray = trace_ray(at.x, at.y);
+    keep_corner(k, item, at, ray, stop_points);
   } else if (k < 128u) {
     TwoRays two = trace_two(at, other_at);
     keep_corner(k, item, at, two.first, two.first_points);

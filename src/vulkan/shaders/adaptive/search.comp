@@ -49,7 +49,8 @@ void trace_corners(uint item, RaySet rays) {
   vec2 place = place_of(rays, k);
   if (!ON_PROCESSOR) {
     vec2 from = in_lens_frame(rays.side, place);
-    keep_corner(k, counts(rays, place), trace_ray(from.x, from.y), stop_points);
+    vec4 ray = trace_ray(from.x, from.y);
+    keep_corner(k, counts(rays, place), ray, stop_points);
     return;
   }
   if (k >= 128u) return;
