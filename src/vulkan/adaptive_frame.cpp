@@ -347,7 +347,7 @@ std::uint32_t AdaptiveFrame::flags() const {
 // Dim ghosts, which many cells do not better, have fluxes that are off by per cents with 8 cells a side, and by tenths
 // with 12. Frames of many lights have fewer cells, which must fit into the device's buffers.
 std::uint32_t AdaptiveFrame::fewest_cells() const {
-  constexpr std::uint32_t kFine = 16, kUsual = 12, kCoarse = 8;
+  constexpr std::uint32_t kFine = 12, kUsual = 10, kCoarse = 8;
   constexpr std::uint64_t kManyItems = 4096;  // several lights through a long zoom
   const std::uint64_t items = job_.items.size();
   const auto fits = [&](std::uint64_t cells) {

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 #include "bindings.glsl"
 #include "light.glsl"
 #include "iris.glsl"
-#include "polygon.glsl"
+#include "clip_triangle.glsl"
 #include "cell.glsl"
 #include "cell_pixels.glsl"
 #include "coverage.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clips a triangle of rays by the outline of a picture as the iris. The triangle is divided into parts so small that
 // the outline is about straight in each: along it the signed distance, linear between a part's corners, is 0. On the
-// CPU render/bundle/cell_clip.cpp clips by the outline's pieces. Included after polygon.glsl and grid_stop.glsl.
+// CPU render/bundle/cell_clip.cpp clips by the outline's pieces. Included after clip_triangle.glsl and grid_stop.glsl.
 #define STRAIGHT_OUTLINE 0.01  // stop radii of a part's sides
 #define VISIBLE_OUTLINE 0.3    // pixels of them
 #define MOST_PICTURE_PARTS 8   // a side
@@ -42,7 +42,7 @@ void begin_part(vec2 corner, float size) {
 void cut_part(vec3 values, vec2 corner, float size) {
   vec2 slope = (values.yz - values.x) / size;
   float at_0 = values.x - dot(slope, corner);
-  cut(at_0, at_0 + slope.x, at_0 + slope.y, 0.0);
+  cut(at_0, at_0 + slope.x, at_0 + slope.y);
 }
 
 void clip_by_picture(uint c, vec2 corner, float size) {

@@ -93,11 +93,11 @@ uvec2 cells_for(uint item, float allowed_by_root) {
   if (!(allowed_by_root > 0.0)) return uvec2(COARSE_CELLS, 1u);
   float allowed = allowed_by_root * cube_root(squared_error_of(item));
   float edges = side_for(state(item, STATE_EDGE_ERROR), allowed);
-  float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_CUT_PARTS));
+  float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_EDGE_PARTS));
   // Cells smaller than a third of a pixel show nothing more.
   cells = min(cells, min(3.0 * state(item, STATE_EXTENT), float(MOST_CELLS)));
   cells = max(ceil(cells), float(p.fewest_cells));
-  return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_CUT_PARTS)));
+  return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_EDGE_PARTS)));
 }
 
 void set_gains(uint item, vec3 gain, mat2x3 slopes) {

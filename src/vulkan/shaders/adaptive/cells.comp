@@ -58,12 +58,14 @@ bool list_open(uvec4 v) {
   return true;
 }
 
-// Parts are no smaller than half a pixel.
-uint cut_parts(uvec4 v) {
+// Parts are no smaller than half a pixel. Where the image of an open cell folds, only smaller parts follow the fold; edges
+// have a point between their ends.
+uint cut_parts(uvec4 v, bool is_open) {
   vec2 low = min(min(ray_of(v.x).xy, ray_of(v.y).xy), min(ray_of(v.z).xy, ray_of(v.w).xy));
   vec2 high = max(max(ray_of(v.x).xy, ray_of(v.y).xy), max(ray_of(v.z).xy, ray_of(v.w).xy));
   uint halves = uint(min(2.0 * max(high.x - low.x, high.y - low.y) + 1.0, 1.0e4));
-  return clamp(min(floatBitsToUint(state(item, STATE_PARTS)), halves), 1u, MOST_CUT_PARTS);
+  uint parts = floatBitsToUint(state(item, STATE_PARTS)) * (is_open ? MOST_CUT_PARTS / MOST_EDGE_PARTS : 1u);
+  return clamp(min(parts, halves), 1u, MOST_CUT_PARTS);
 }
 
 void list_cut(uint parts) {
@@ -109,5 +111,5 @@ void main() {
   }
 #endif
   if (how == STATE_OPEN && list_open(v)) return;
-  list_cut(any_failed ? 1u : cut_parts(v));
+  list_cut(any_failed ? 1u : cut_parts(v, how == STATE_OPEN));
 }

@@ -45,6 +45,7 @@ p;
 #define CUT_PART_SHIFT 21u
 #define CUT_PARTS_SHIFT 25u
 #define MOST_CUT_PARTS 4u
+#define MOST_EDGE_PARTS 2u  // where an edge cuts it
 
 uint item_word(uint item, uint k) { return texelFetch(item_texels, int(ITEM_WORDS / 4u * item + (k >> 2u)))[k & 3u]; }
 float item_float(uint item, uint k) { return uintBitsToFloat(item_word(item, k)); }

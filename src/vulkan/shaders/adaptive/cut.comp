@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "common.glsl"
 #include "grid.glsl"
 #include "../iris.glsl"
-#include "../polygon.glsl"
+#include "clip_part.glsl"
 #include "../cell.glsl"
 #include "list.glsl"
 #ifdef OCCLUDERS
@@ -18,17 +18,34 @@ layout(local_size_x = 64) in;
 #include "state.glsl"
 #include "between.glsl"
 
-// A triangle or quadrilateral is drawn, as polygon.glsl describes them.
+// The part's values, with those of clip_part.glsl.
+struct Part {
+  Patch pixels;
+  vec4 light;
+#ifdef OCCLUDERS
+  vec2 fronts[4];
+#endif
+};
+Part part;
+
+// What is drawn of it, a quadrilateral or a triangle: its first, second and last corner.
 vec2 pixels[3];
-vec2 twist = vec2(0.0);
-float area_px;           // of the whole
-float transmission;      // its mean, or twice that of a quadrilateral
+float area_px;       // of the whole
+float transmission;  // its mean, or twice that of a quadrilateral
+
+// Values at the first, second and last corner of what is drawn.
+vec2[3] drawn_corners(vec2 at[4]) {
+  return vec2[3](at[0], drawn == SECOND_HALF ? at[2] : at[1], drawn == FIRST_HALF ? at[2] : at[3]);
+}
 
 // The stop points of the corners at the last crossing, where the item has a stop pattern.
 uint pattern = 0u;
 vec2 last_stops[3];
 bool is_dimmed = false;  // the triangle, by more than rims and the sharp iris
+#define MEAN_OF_BENDS (1.0 / 24.0)  // of a square's parabolas, by the sum of the four second differences
+#define MOST_LEVEL 2.0
 #ifdef OCCLUDERS
+#define IS_OCCLUDED true
 // Shadows are sharper than most fringes, so that all triangles in a pixel must have the mean over the pixel, or each of
 // them the mean over itself, where a pixel sees much of the stop.
 #define LARGE_PX 0.001
@@ -36,19 +53,23 @@ bool is_dimmed = false;  // the triangle, by more than rims and the sharp iris
 #define WIDE 0.1
 float least_thickness(float longest) { return min(0.1 * longest, 1.0); }  // px
 #else
+#define IS_OCCLUDED false
 #define LARGE_PX 1.0           // smaller triangles have the mean transmittance of their part of the stop
 #define LARGE_OF_WIDE_PX 2.0   // the same where a pixel is WIDE of the stop
 #define WIDE 0.5               // stop radii
 float least_thickness(float longest) { return 1.0; }  // px
 #endif
 
-vec2 middle_of_part;  // in (u, v)
+// A place in the part, along the sides of the triangle that is drawn, from its first corner to the others.
+vec2 in_triangle(vec2 at) { return drawn == FIRST_HALF ? vec2(at.x - at.y, at.y) : vec2(at.x, at.y - at.x); }
+
+vec2 middle_of_part;  // in the triangle
 float part_of_triangle;
 
 void find_middle(float fraction) {
   part_of_triangle = fraction;
   middle_of_part = vec2(0.0);
-  for (int k = 0; k < corner_count; ++k) middle_of_part += polygon[k];
+  for (int k = 0; k < corner_count; ++k) middle_of_part += in_triangle(polygon[k]);
   middle_of_part /= float(corner_count);
 }
 
@@ -136,8 +157,8 @@ bool set_pattern_map() {
 void find_occluders() { is_dimmed = pattern != 0u; }
 #endif
 
-// low, high: the polygon's bounds.
-void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
+// Lists what clips have left of the part, in pixels. low, high: its bounds; level: of its density.
+void list_part(float flux, float fraction, float level, vec2 gradient, vec2 low, vec2 high) {
   bool is_point = floor(low) == floor(high);
   vec2 from = low, to = low;
   // The corners are compared in pairs only if the polygon is thin for its bounds.
@@ -149,126 +170,112 @@ void list_part(float flux, float fraction, vec2 gradient, vec2 low, vec2 high) {
   if (is_dimmed && (is_point || is_line || !set_pattern_map())) flux *= mean_transmittance();
 #endif
   bool is_small = is_point || is_line;
-  float value = is_small ? flux * fraction : flux / area_px;
-  vec2 middle = is_quad ? 0.5 * (pixels[1] + pixels[2]) + 0.25 * twist
-                        : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+  float value = is_small ? flux * fraction : flux * level / area_px;
+  vec2 middle = drawn == WHOLE ? bilinear(part.pixels, vec2(0.5)) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
   if (is_small) middle = vec2(0.0);
   list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
 }
 
-void list_triangle(vec2 gradient) {
-  begin_triangle();
-  clip_triangle(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
-  if (corner_count < 3) return;
-  float fraction = (is_quad ? 0.5 : 1.0) * abs(twice_polygon_area());  // the triangle's area is 1/2
-  find_occluders();
-  if (is_dimmed) {
-    for (int k = 0; k < 3; ++k) last_stops[k] = stops_of_triangle[crossings_of(item) - 1u][k];
-    find_middle(fraction);
-  }
-  vec2 low = vec2(FAILED), high = vec2(-FAILED);
-  for (int k = 0; k < corner_count; ++k) {
-    vec2 at = polygon[k];
-    at = pixels[0] + (pixels[1] - pixels[0]) * at.x + (pixels[2] - pixels[0]) * at.y + twist * (at.x * at.y);
-    polygon[k] = at;
-    low = min(low, at);
-    high = max(high, at);
-  }
-  list_part(triangle_weight * transmission, fraction, gradient, low, high);
+// The pixel of a place between straight sides.
+vec2 pixel_between(vec2 at) {
+  if (drawn == WHOLE) return bilinear(part.pixels, at);
+  vec2 along = in_triangle(at);
+  return pixels[0] + (pixels[1] - pixels[0]) * along.x + (pixels[2] - pixels[0]) * along.y;
 }
 
-// The corners of the part, in order; stops: where their rays cross the stop.
-struct Part {
-  vec2 pixels[4], stops[MAX_CROSSINGS][4];
-  vec4 light, heights;
-#ifdef OCCLUDERS
-  vec2 fronts[4];
-#endif
-};
-Part part;
+// How far a pixel lies from there, since the sides bend. The side between two halves is straight.
+vec2 bent_by(vec2 at) {
+  if (drawn == WHOLE) return value_at(part.pixels, at) - bilinear(part.pixels, at);
+  vec2 along = in_triangle(at), bend_of_middle = part.pixels.bends[drawn == FIRST_HALF ? 1 : 2];
+  vec2 bend_of_first = part.pixels.bends[drawn == FIRST_HALF ? 0 : 3];
+  float by_first = (1.0 - along.x - along.y) * (drawn == FIRST_HALF ? along.x : along.y);
+  return -0.5 * (by_first * bend_of_first + along.x * along.y * bend_of_middle);
+}
 
-// A part is drawn whole, or in halves.
-#define WHOLE 0u
-#define FIRST_HALF 1u
-#define SECOND_HALF 2u
+void list_drawn(vec2 gradient) {
+  clip_part(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
+  if (corner_count < 3) return;
+  float fraction = (drawn == WHOLE ? 0.5 : 1.0) * abs(twice_polygon_area());
+  find_occluders();
+  if (is_dimmed) find_middle(fraction);
+  vec2 low = vec2(FAILED), high = vec2(-FAILED);
+  // Twice the areas that the polygon has, and that it would have between straight sides.
+  float area = 0.0, straight_area = 0.0;
+  vec2 before = vec2(0.0), straight_before = vec2(0.0), origin = pixel_between(polygon[0]);
+  for (int k = 0; k < corner_count; ++k) {
+    vec2 straight = pixel_between(polygon[k]), here = straight + bent_by(polygon[k]);
+    polygon[k] = here;
+    low = min(low, here);
+    high = max(high, here);
+    area += cross2(before, here - origin);
+    straight_area += cross2(straight_before, straight - origin);
+    before = here - origin;
+    straight_before = straight - origin;
+  }
+  area += cross2(before, polygon[0] - origin);
+  // The part's light is what it is between straight sides, which parts and cells share.
+  float level = area * straight_area > 0.0 ? min(straight_area / area, MOST_LEVEL) : 1.0;
+  list_part(triangle_weight * transmission, fraction, level, gradient, low, high);
+}
 
-// Reads where the corners' rays cross the stop, from their weights: the crossings around are read once for all corners.
-void read_stops(float weights_of[4][12]) {
+// Reads a square part of the cell. Corners of the cell are its rays, of which some may fail.
+void read_part(vec2 low, float size) {
+  vec4 values[12];
+  find_around(values);
+  Patch4 rays = part_of_cell(whole_cell(values), low, size, true);
+  for (int k = 0; k < 4; ++k) {
+    part.pixels.corners[k] = rays.corners[k].xy - vec2(base);
+    part.pixels.bends[k] = rays.bends[k].xy;
+    heights_of_part[k] = rays.corners[k].w;
+    height_bends_of_part[k] = rays.bends[k].w;
+  }
+  // Light is linear in what is drawn: it is moved by the mean of what it bends.
+  float bend = rays.bends[0].z + rays.bends[1].z + rays.bends[2].z + rays.bends[3].z;
+  vec4 light = vec4(rays.corners[0].z, rays.corners[1].z, rays.corners[2].z, rays.corners[3].z);
+  part.light = max(light - MEAN_OF_BENDS * bend, vec4(0.0));
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
     if (c >= crossings_of(item)) continue;
-    vec2 sum[4] = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
-    for (int j = 0; j < 12; ++j) {
-      vec2 at = crossing(around[j], c);
-      for (int k = 0; k < 4; ++k) sum[k] += weights_of[k][j] != 0.0 ? weights_of[k][j] * at : vec2(0.0);
-    }
-    part.stops[c] = sum;
+    for (int k = 0; k < 12; ++k) values[k] = exists[k] ? vec4(crossing(around[k], c), 0.0, 0.0) : vec4(0.0);
+    stops_of_part[c] = first_two(part_of_cell(whole_cell(values), low, size, false));
   }
-}
-
-// Reads a square part of the cell. Corners of the cell are its rays, of which some may fail. Heights and
-// crossings are linear in the part, and bend in truth. They are moved by the mean of that, as is the light, so that
-// edges, which are chords, let as much light pass as the curves do.
-void read_part(vec2 low, float size) {
-  const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
-  float weights_of[4][12];
-  find_around();
-  for (int k = 0; k < 4; ++k) {
-    vec2 at = low + size * corners[k];
 #ifdef OCCLUDERS
-    part.fronts[k] = front_at(at);
+  const vec2 corners[4] = vec2[4](vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0));
+  for (int k = 0; k < 4; ++k) part.fronts[k] = front_at(low + size * corners[k]);
 #endif
-    set_weights(at, !is_on_straight_row(at), !is_on_straight_column(at));
-    part.pixels[k] = ray_between().xy - vec2(base);
-    set_weights(at, true, true);
-    add_mean_bend(at, size);
-    vec4 ray = ray_between();
-    part.light[k] = max(ray.z, 0.0);
-    part.heights[k] = ray.w;
-    weights_of[k] = weights;
-  }
-  read_stops(weights_of);
 }
 
-// Values at the corners of what is drawn: the first, second and last one.
-vec2[3] drawn_corners(vec2 at[4], uint how) {
-  return vec2[3](at[0], how == SECOND_HALF ? at[2] : at[1], how == FIRST_HALF ? at[2] : at[3]);
+// Where the triangle's rays cross the stop, linearly: moved by the mean of what that bends.
+vec2[3] stops_of_drawn(uint c) {
+  vec2 bend = stops_of_part[c].bends[0] + stops_of_part[c].bends[1] + stops_of_part[c].bends[2] + stops_of_part[c].bends[3];
+  vec2 at[3] = drawn_corners(stops_of_part[c].corners);
+  for (int k = 0; k < 3; ++k) at[k] -= MEAN_OF_BENDS * bend;
+  return at;
 }
-vec2 twist_between(vec2 at[4]) { return at[0] - at[1] + at[2] - at[3]; }
 
 void set_drawn(uint how) {
-  vec4 heights = part.heights;
-  heights_of_triangle =
-      float[3](heights.x, how == SECOND_HALF ? heights.z : heights.y, how == FIRST_HALF ? heights.z : heights.w);
-  height_twist = heights.x - heights.y + heights.z - heights.w;
-  for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
-    if (c >= crossings_of(item)) continue;
-    stops_of_triangle[c] = drawn_corners(part.stops[c], how);
-    stop_twists[c] = twist_between(part.stops[c]);
-  }
+  drawn = how;
 #ifdef OCCLUDERS
-  front_of_triangle = drawn_corners(part.fronts, how);
+  front_of_triangle = drawn_corners(part.fronts);
+  for (uint c = 0u; c < MAX_CROSSINGS; ++c)
+    if (c < crossings_of(item)) stops_of_triangle[c] = stops_of_drawn(c);
 #endif
-  is_quad = how == WHOLE;
-  vec2 a = part.pixels[0], b = part.pixels[1], c = part.pixels[2], d = part.pixels[3];
+  if (pattern != 0u) last_stops = stops_of_drawn(crossings_of(item) - 1u);
+  vec2 corners[4] = part.pixels.corners;
+  vec2 a = corners[0], b = corners[1], c = corners[2], d = corners[3];
   float first_half = (part.light.x + part.light.y + part.light.z) / 3.0;
   float second_half = (part.light.x + part.light.z + part.light.w) / 3.0;
   transmission = (how == SECOND_HALF ? 0.0 : first_half) + (how == FIRST_HALF ? 0.0 : second_half);
-  pixels = drawn_corners(part.pixels, how);
-  twist = is_quad ? twist_between(part.pixels) : vec2(0.0);
-  area_px = 0.5 * abs(is_quad ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
+  pixels = drawn_corners(corners);
+  area_px = 0.5 * abs(how == WHOLE ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
 }
 
-// Patterns and occluders are linear over triangles, and the light of a quadrilateral that is about to fold is uneven.
-#define LEAST_CORNER 0.7  // the area of the parallelogram at a corner of a quadrilateral, by the mean
-bool is_drawn_whole() {
-#ifdef OCCLUDERS
-  return false;
-#else
-  vec2 a = part.pixels[0], b = part.pixels[1], c = part.pixels[2], d = part.pixels[3];
+// Whether the part's image is about a parallelogram, and not about to fold: its light is even, and its sides bend little.
+#define LEAST_CORNER 0.2  // the area of the parallelogram at a corner of a quadrilateral, by the mean
+bool is_even() {
+  vec2 a = part.pixels.corners[0], b = part.pixels.corners[1], c = part.pixels.corners[2], d = part.pixels.corners[3];
   vec4 areas = vec4(cross2(b - a, d - a), cross2(c - b, a - b), cross2(d - c, b - c), cross2(a - d, c - d));
   float least = LEAST_CORNER * 0.25 * abs(areas.x + areas.y + areas.z + areas.w);
-  return pattern == 0u && (all(greaterThan(areas, vec4(least))) || all(lessThan(areas, vec4(-least))));
-#endif
+  return all(greaterThan(areas, vec4(least))) || all(lessThan(areas, vec4(-least)));
 }
 
 void main() {
@@ -286,7 +293,7 @@ void main() {
 #ifdef OCCLUDERS
   grid_box = state_box(item);
 #endif
-  bvec4 fails = bvec4(failed(ray_of(v.x)), failed(ray_of(v.y)), failed(ray_of(v.z)), failed(ray_of(v.w)));
+  fails = bvec4(failed(ray_of(v.x)), failed(ray_of(v.y)), failed(ray_of(v.z)), failed(ray_of(v.w)));
   if (fails.x || fails.z || fails.y && fails.w) return;
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   float area = any(fails) ? 0.0 : 0.5 * cross2(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy);
@@ -295,12 +302,15 @@ void main() {
   float size = 1.0 / float(parts);
   read_part(vec2(number % parts, number / parts) * size, size);
   triangle_weight *= size * size;
-  bool has_halves = !any(fails) && !is_drawn_whole();
+  bool is_linear = !is_even();
+  if (is_linear) part.pixels.bends = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
+  // Patterns and occluders are linear over triangles.
+  bool has_halves = !any(fails) && (IS_OCCLUDED || pattern != 0u || is_linear);
   uint how = fails.y ? SECOND_HALF : fails.w || has_halves ? FIRST_HALF : WHOLE;
   bool is_last;
   do {
     set_drawn(how);
-    list_triangle(gradient);
+    list_drawn(gradient);
     is_last = how != FIRST_HALF || !has_halves;
     how = SECOND_HALF;
   } while (!is_last);

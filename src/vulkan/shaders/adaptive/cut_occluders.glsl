@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The occluders of a triangle of a cut cell (occluders.glsl). Included by cut.comp.
-vec2 front_of_triangle[3];
+vec2 front_of_triangle[3], stops_of_triangle[MAX_CROSSINGS][3];
 uint occluders = 0u;  // mask of what may dim the triangle
 
 // The point at which light crosses the front, for a place in the cell.

@@ -1,48 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sum of a number by invocation over a workgroup of 256, or the largest.
-shared vec4 sums_of[256];
+// Sums over a workgroup of 256, of rows of four numbers by invocation; of the last row, the largest.
+#define ROWS 4u
+#define LARGEST_ROW 3u
+shared vec4 rows[ROWS][256];
 
-// The sum of sums_of[], or the largest by component, into sums_of[0], in two steps: processors pass barriers slowly,
-// and all invocations wait for a loop that is unrolled.
-void reduce_in_steps(bool takes_largest) {
+vec4 add_to_row(uint row, vec4 a, vec4 b) { return row == LARGEST_ROW ? max(a, b) : a + b; }
+
+// In two steps: processors pass barriers slowly, and all invocations wait for a loop that is unrolled.
+void sum_rows_in_steps() {
   uint t = gl_LocalInvocationIndex;
-  barrier();
   for (uint step_by = 16u; step_by > 0u; step_by /= 16u) {
-    if (t < step_by) {
-      vec4 all = sums_of[t];
-      [[dont_unroll]] for (uint k = t + step_by; k < 16u * step_by; k += step_by) {
-        vec4 one = sums_of[k];
-        all = takes_largest ? max(all, one) : all + one;
-      }
-      sums_of[t] = all;
+    uint row = t / step_by, lane = t % step_by;
+    if (row < ROWS) {
+      vec4 all = rows[row][lane];
+      [[dont_unroll]] for (uint k = lane + step_by; k < 16u * step_by; k += step_by)
+        all = add_to_row(row, all, rows[row][k]);
+      rows[row][lane] = all;
     }
     barrier();
   }
 }
 
-void sum_up() {
+// The sums, into rows[...][0].
+void sum_rows() {
+  barrier();
   if (ON_PROCESSOR) {
-    reduce_in_steps(false);
+    sum_rows_in_steps();
     return;
   }
-  barrier();
+  uint t = gl_LocalInvocationIndex;
   for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
-    if (gl_LocalInvocationIndex < half_count)
-      sums_of[gl_LocalInvocationIndex] += sums_of[gl_LocalInvocationIndex + half_count];
-    barrier();
-  }
-}
-
-void largest() {
-  if (ON_PROCESSOR) {
-    reduce_in_steps(true);
-    return;
-  }
-  barrier();
-  for (uint half_count = 128u; half_count > 0u; half_count /= 2u) {
-    if (gl_LocalInvocationIndex < half_count)
-      sums_of[gl_LocalInvocationIndex] =
-          max(sums_of[gl_LocalInvocationIndex], sums_of[gl_LocalInvocationIndex + half_count]);
+    if (t < half_count)
+      for (uint row = 0u; row < ROWS; ++row) rows[row][t] = add_to_row(row, rows[row][t], rows[row][t + half_count]);
     barrier();
   }
 }

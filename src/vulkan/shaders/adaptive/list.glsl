@@ -11,6 +11,7 @@
 // follows for each point that the mask needs.
 #define RECORD_WORDS 16u
 #define PATTERN_SHIFT 8u
+#define CONCAVE 0x80u  // a flag beside the number of corners: a polygon may not be convex
 #ifdef OCCLUDERS
 #define MOST_MAP_CORNERS 13u
 #else
@@ -33,6 +34,7 @@ bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
 }
 
 uint record_pattern = 0u;  // of the polygon to be listed, or its mask; 0: none
+bool is_concave = false;
 uint map_corners = 4u;
 vec2 pattern_map[MOST_MAP_CORNERS];
 
@@ -53,7 +55,7 @@ int begin_record(Density density, uint count, ivec4 box) {
   large[word + 4u] = floatBitsToUint(density.point.y);
   for (uint c = 0u; c < 3u; ++c) large[word + 5u + c] = floatBitsToUint(gain[c]);
   large[word + 8u] = first;
-  large[word + 9u] = count | (record_pattern << PATTERN_SHIFT);
+  large[word + 9u] = count | (is_concave ? CONCAVE : 0u) | (record_pattern << PATTERN_SHIFT);
   large[word + 10u] = uint(base.x);
   large[word + 11u] = uint(base.y);
   box += base.xyxy;
@@ -86,6 +88,21 @@ void list_point(vec2 at, float flux) {
   if (first >= 0) large_corners[first] = at;
 }
 
+// Whether the polygon is not convex.
+bool turns_both_ways() {
+  bool left = false, right = false;
+  vec2 a = polygon[corner_count - 1], along = a - polygon[corner_count - 2];
+  for (int k = 0; k < corner_count; ++k) {
+    vec2 next = polygon[k] - a;
+    float turn = cross2(along, next);
+    left = left || turn > 0.0;
+    right = right || turn < 0.0;
+    along = next;
+    a = polygon[k];
+  }
+  return left && right;
+}
+
 // Lists a point, a line between two points, or else the polygon, within bounds. At one place for all three, since
 // lavapipe executes the code of all.
 void list_any(bool is_point, bool is_line, vec2 from, vec2 to, Density density, vec2 low, vec2 high) {
@@ -96,6 +113,7 @@ void list_any(bool is_point, bool is_line, vec2 from, vec2 to, Density density, 
     return;
   if (is_point) box = ivec4(floor(first_point), floor(first_point));
   int count = is_polygon ? corner_count : is_point ? 1 : 2;
+  is_concave = is_polygon && turns_both_ways();
   int first = begin_record(density, uint(count), box);
   if (first < 0) return;
   bool is_reversed = twice_polygon_area() < 0.0;

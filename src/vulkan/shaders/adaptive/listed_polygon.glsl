@@ -33,6 +33,7 @@ vec2 gradient_of(Polygon q) { return uintBitsToFloat(q.density.yz); }
 vec2 point_of(Polygon q) { return vec2(uintBitsToFloat(q.density.w), uintBitsToFloat(q.point_and_gain.x)); }
 vec3 gain_of(Polygon q) { return uintBitsToFloat(q.point_and_gain.yzw); }
 uint first_of(Polygon q) { return q.corners.x; }
+bool is_concave(Polygon q) { return (q.corners.y & CONCAVE) != 0u; }
 ivec2 base_of(Polygon q) { return ivec2(q.corners.zw); }
 
 // Four corners from a place in large_corners on; past the last one, this again.
@@ -109,7 +110,7 @@ float transmittance_of(Polygon q, vec2 corner) {
 }
 #endif
 #else
-uint count_of(Polygon q) { return q.corners.y; }
+uint count_of(Polygon q) { return q.corners.y & CORNERS_MASK; }
 #endif
 
 // The polygon's value in a pixel. corners, last: as for covered_part().

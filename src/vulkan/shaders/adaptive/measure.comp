@@ -20,18 +20,19 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define LARGEST_ROUGHNESS 0.5             // the mean squared slope by pixel of a pattern
-#define SQUARED_ABOUT_MEAN (4.0 / 45.0)   // of a parabola of height 1
-#define SIDES_PART 0.3                    // of the bends of sides that edges show; chosen, not derived
+// A parabola of height 1, by two straight lines: with a point between its ends that keeps the area (cut_polygon.glsl), and
+// with one on the parabola.
+#define SQUARED_WITH_AREA (2.0 / 135.0)
+#define SQUARED_ON_CURVE (1.0 / 30.0)
+#define SIDES_PART 0.56                   // of the bends of sides that edges show; chosen, not derived
 
-// Values that are read together lie together, and are read once: lavapipe reads each word of shared memory in a loop. Each
-// ray's pixel; its transmission, -1 if it fails; and its largest height at a rim.
-shared vec4 ray_values[256];
+// Values that are read together lie together, and are read once: lavapipe reads each word of shared memory in a loop. They
+// lie where the sums are made later. Each ray's pixel; its transmission, -1 if it fails; and its largest height at a rim.
+#define RAY_ROW 0u
 // The point farthest outside at which it crosses the stop, and the point's distance from the iris, < 0 inside.
-shared vec3 stop_values[256];
-shared vec2 last_stops[256];  // of items with a stop pattern: where the ray crosses the stop last
-#ifdef OCCLUDERS
-shared vec2 dirt_points[256];  // where the ray crosses the plane of the dirt last, mm
-#endif
+#define STOP_ROW 1u
+// Of items with a stop pattern, where the ray crosses the stop last; with dirt, where it crosses its plane last, mm.
+#define SEEN_ROW 3u
 // A cell's density, with the sign of its area, 0 if there is none; the square of its value, times its area in the frame.
 shared vec2 cell_values[256];
 shared uint histogram[BINS];
@@ -74,14 +75,17 @@ uint ray_inside() {
   return 16u * at.y + at.x;
 }
 
+vec2 last_stop(uint k) { return rows[SEEN_ROW][k].xy; }
+vec2 dirt_point(uint k) { return rows[SEEN_ROW][k].zw; }
+
 void read_rays() {
   uvec4 v = rays_at_corners();
   uint inside = ray_inside();
   uint near[5] = uint[5](inside, inside - 1u, inside + 1u, inside - 16u, inside + 16u);
-  for (int j = 0; j < 4; ++j) corner_rays[j] = ray_values[v[j]];
-  for (int j = 0; j < 4; ++j) corner_stops[j] = stop_values[v[j]];
-  for (int j = 0; j < 5; ++j) near_rays[j] = ray_values[near[j]];
-  for (int j = 0; j < 5; ++j) near_stops[j] = stop_values[near[j]];
+  for (int j = 0; j < 4; ++j) corner_rays[j] = rows[RAY_ROW][v[j]];
+  for (int j = 0; j < 4; ++j) corner_stops[j] = rows[STOP_ROW][v[j]].xyz;
+  for (int j = 0; j < 5; ++j) near_rays[j] = rows[RAY_ROW][near[j]];
+  for (int j = 0; j < 5; ++j) near_stops[j] = rows[STOP_ROW][near[j]].xyz;
 }
 
 // As blocked(), at a corner.
@@ -89,7 +93,7 @@ float blocked_at(int corner) { return max(corner_rays[corner].w - 1.0, corner_st
 
 // The mean transmittance of the item's stop pattern over a cell.
 float transmitted_by(uvec4 v) {
-  vec2 a = last_stops[v.x], b = last_stops[v.y], c = last_stops[v.z], d = last_stops[v.w];
+  vec2 a = last_stop(v.x), b = last_stop(v.y), c = last_stop(v.z), d = last_stop(v.w);
   return transmittance_at(pattern, 0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b), ALL_EDGES);
 }
 
@@ -115,7 +119,7 @@ Cell find_cell(float flux_a_transmission) {
   if (pattern != 0u) cell.open *= transmitted_by(v);
 #ifdef OCCLUDERS
   if (HAS_PICTURE && pattern == 0u) {
-    vec2 a = last_stops[v.x], b = last_stops[v.y], c = last_stops[v.z], d = last_stops[v.w];
+    vec2 a = last_stop(v.x), b = last_stop(v.y), c = last_stop(v.z), d = last_stop(v.w);
     cell.open *= picture_over(0.25 * (a + b + c + d), 0.5 * (b - a + c - d), 0.5 * (d - a + c - b));
   }
 #endif
@@ -140,7 +144,7 @@ vec2 bend_of_column() { return near_rays[3].xy - 2.0 * near_rays[0].xy + near_ra
 float squared_sag_of_sides() {
   vec2 x = has_neighbours_in_row() ? bend_of_row() : vec2(1.0);
   vec2 y = has_neighbours_in_column() ? bend_of_column() : vec2(1.0);
-  return SIDES_PART * (dot(x, x) + dot(y, y)) / 64.0;
+  return SIDES_PART * SQUARED_ON_CURVE * (dot(x, x) + dot(y, y)) / 64.0;
 }
 
 vec2 corners_along_row() { return corner_rays[1].xy - corner_rays[0].xy + corner_rays[2].xy - corner_rays[3].xy; }
@@ -154,7 +158,7 @@ float squared_edge_sag(vec4 at, float x, float y) {
   vec2 along_x = 0.5 * corners_along_row(), along_y = 0.5 * corners_along_column();
   float cells = TYPICAL_BEND * bend / 8.0 / max(dot(slope, slope), 1e-12);
   float displaced = min(cells * length(slope.x * along_x + slope.y * along_y), length(along_x) + length(along_y));
-  return SQUARED_ABOUT_MEAN * displaced * displaced;
+  return SQUARED_WITH_AREA * displaced * displaced;
 }
 
 bool has_edge(vec4 at) {
@@ -186,7 +190,7 @@ float squared_sag() {
 // along an edge they begin a pixel's part of a fringe unit from it.
 float roughness_px(Cell cell) {
   uint k = gl_LocalInvocationIndex;
-  float stop_area = abs(cross2(last_stops[k + 17u] - last_stops[k], last_stops[k + 16u] - last_stops[k + 1u]));
+  float stop_area = abs(cross2(last_stop(k + 17u) - last_stop(k), last_stop(k + 16u) - last_stop(k + 1u)));
   float across = sqrt(min(0.5 * stop_area / max(abs(cell.area_px), 1.0), 1.0));  // a pixel, in stop radii
   float rough = pattern_roughness(pattern);
   if (pattern_side(pattern) != 0u) return min(rough * across * across, LARGEST_ROUGHNESS);
@@ -197,9 +201,9 @@ float roughness_px(Cell cell) {
 // The points of a ray in the plane that a map leads to.
 vec2 seen_point(uint k, bool is_dirt) {
 #ifdef OCCLUDERS
-  if (is_dirt) return dirt_points[k];
+  if (is_dirt) return dirt_point(k);
 #endif
-  return last_stops[k];
+  return last_stop(k);
 }
 
 vec2 seen_difference(uint k, uint step_by, bool is_dirt) {
@@ -232,7 +236,7 @@ float squared_bend_of_map(uint k, bool is_dirt) {
 float dirt_roughness_px(Cell cell) {
   uint k = gl_LocalInvocationIndex;
   if ((p.flags & (FLAG_DIRT_IN_STOP | FLAG_DIRT_ON_FRONT)) == 0u) return 0.0;
-  vec2 a = dirt_points[k], b = dirt_points[k + 1u], c = dirt_points[k + 17u], d = dirt_points[k + 16u];
+  vec2 a = dirt_point(k), b = dirt_point(k + 1u), c = dirt_point(k + 17u), d = dirt_point(k + 16u);
   Disc disc = disc_of(a, b, c, d, 0.0);
   if (is_clean(disc.middle, disc.radius)) return 0.0;
   float pixel_mm = sqrt(0.5 * abs(cross2(c - a, d - b)) / max(abs(cell.area_px), 1.0));
@@ -245,7 +249,7 @@ float dirt_roughness_px(Cell cell) {
 float picture_roughness_px(Cell cell) {
   uint k = gl_LocalInvocationIndex;
   if (!HAS_PICTURE || pattern != 0u) return 0.0;
-  float stop_area = abs(cross2(last_stops[k + 17u] - last_stops[k], last_stops[k + 16u] - last_stops[k + 1u]));
+  float stop_area = abs(cross2(last_stop(k + 17u) - last_stop(k), last_stop(k + 16u) - last_stop(k + 1u)));
   float across = sqrt(min(0.5 * stop_area / max(abs(cell.area_px), 1.0), 1.0));
   float sample_width = 2.0 * pattern_scale(p.picture) / float(pattern_side(p.picture));
   return min(pattern_roughness(p.picture) * sample_width * across, LARGEST_ROUGHNESS);
@@ -337,16 +341,18 @@ void keep_corner(uint k, uint item, vec2 at, vec4 ray, vec2 points[MAX_CROSSINGS
     if (here > distance) farthest = points[c];
     distance = max(distance, here);
   }
-  ray_values[k] = vec4(ray.xy, failed(ray) ? -1.0 : ray.z, ray.w);
-  stop_values[k] = vec3(farthest, distance);
-  if (pattern != 0u) last_stops[k] = points[sharp_crossings];
+  rows[RAY_ROW][k] = vec4(ray.xy, failed(ray) ? -1.0 : ray.z, ray.w);
+  rows[STOP_ROW][k] = vec4(farthest, distance, 0.0);
+  vec2 last = vec2(0.0), at_dirt = vec2(0.0);
+  if (pattern != 0u) last = points[sharp_crossings];
 #ifdef OCCLUDERS
-  if (HAS_PICTURE) last_stops[k] = points[crossings_of_group - 1u];
+  if (HAS_PICTURE) last = points[crossings_of_group - 1u];
   if ((p.flags & FLAG_DIRT_ON_FRONT) != 0u)
-    dirt_points[k] = front_point(item, at);
+    at_dirt = front_point(item, at);
   else if ((p.flags & FLAG_DIRT_IN_STOP) != 0u)
-    dirt_points[k] = points[crossings_of_group - 1u] * dirt_float(DIRT_MM_A_UNIT);
+    at_dirt = points[crossings_of_group - 1u] * dirt_float(DIRT_MM_A_UNIT);
 #endif
+  rows[SEEN_ROW][k] = vec4(last, at_dirt);
 }
 
 // Traces the rays of a workgroup, one an invocation; on processors half of the invocations trace two rays each.
@@ -367,7 +373,7 @@ void trace_corners(uint item, vec4 box) {
 
 // Squared errors, in values of the item, between edges; flux and area within the frame. Merged: where edges lie
 // elsewhere.
-vec4 sum_errors(Cell cell, float value, float inside_frame) {
+vec4 errors_of(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
   vec2 moved = corner_rays[0].xy - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
@@ -383,19 +389,16 @@ vec4 sum_errors(Cell cell, float value, float inside_frame) {
     merged += area * (rough + of_picture) * min(moved_squared, 1.0);
   }
 #endif
-  sums_of[k] = !cell.is_drawn ? vec4(0.0)
-                              : inside_frame * vec4(value * value * inside, value * value * merged,
-                                                    cell.flux * cell.open, area * cell.open);
-  sums_of[k].x += squared_light_beside_failing();
-  sum_up();
-  vec4 all = sums_of[0];
-  barrier();
-  return all;
+  vec4 errors = !cell.is_drawn ? vec4(0.0)
+                               : inside_frame * vec4(value * value * inside, value * value * merged,
+                                                     cell.flux * cell.open, area * cell.open);
+  errors.x += squared_light_beside_failing();
+  return errors;
 }
 
 // The squared errors of straight edges, and of drawing a stop pattern as the sharp iris, in values of the item, within
 // the frame.
-vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
+vec2 edge_errors_of(Cell cell, float value, float inside_frame) {
   bool is_edge = cell.is_drawn && cell.has_edge;
   float edge = is_edge ? cell.length_px * squared_sag() : 0.0;
   float sharp = 0.0;
@@ -404,42 +407,38 @@ vec2 sum_edge_errors(Cell cell, float value, float inside_frame) {
     edge += area * roughness_px(cell) * squared_bend_of_map(gl_LocalInvocationIndex, false);
     sharp = area * cell.open * pattern_difference(pattern);
   }
-  sums_of[gl_LocalInvocationIndex] = inside_frame * value * value * vec4(edge, sharp, 0.0, 0.0);
-  sum_up();
-  vec2 all = sums_of[0].xy;
-  barrier();
-  return all;
+  return inside_frame * value * value * vec2(edge, sharp);
 }
 
-// The mean squared displacement from the middle item, and the squared error where the density's ratio to the middle item's
-// is not that of the fluxes: ghosts change their colour from one side to the other.
-vec2 compare_with_middle(Cell cell, float value, float inside_frame) {
-  uint k = gl_LocalInvocationIndex;
+bool is_compared(Cell cell) { return cell.is_drawn && cell.density > 0.0; }
+
+// The squared displacement from the middle item, and its weight.
+vec2 displacement_of(Cell cell) {
   vec2 moved = corner_rays[0].xy - middle_place;
+  return is_compared(cell) ? vec2(dot(moved, moved) * cell.open, cell.open) : vec2(0.0);
+}
+
+// Products of the middle item's density, which is first, and the item's own.
+vec3 products_of(Cell cell, float value, float inside_frame) {
   float scale = value / max(cell.density, 1e-37), weight = max(abs(cell.area_px), 1.0) * cell.open * inside_frame;
   float here = cell.density * scale, there = middle_density * scale;
-  bool counts = cell.is_drawn && cell.density > 0.0;
-  sums_of[k] = !counts ? vec4(0.0) : weight * vec4(there * there, here * there, here * here, 0.0);
-  sum_up();
-  vec3 products = sums_of[0].xyz;
-  barrier();
-  sums_of[k] = !counts ? vec4(0.0) : vec4(dot(moved, moved) * cell.open, cell.open, 0.0, 0.0);
-  sum_up();
-  vec2 displacement = sums_of[0].xy;
-  barrier();
-  float error = products.x > 0.0 ? products.z - products.y * products.y / products.x : products.z;
-  return vec2(displacement.x / max(displacement.y, 1e-30), max(error, 0.0));
+  return is_compared(cell) ? weight * vec3(there * there, here * there, here * here) : vec3(0.0);
 }
 
-float find_extent(Cell cell) {
-  uint k = gl_LocalInvocationIndex;
+// The squared error where the density's ratio to the middle item's is not that of the fluxes: ghosts change their colour
+// from one side to the other.
+float error_of_colours(vec3 products) {
+  return max(products.x > 0.0 ? products.z - products.y * products.y / products.x : products.z, 0.0);
+}
+
+// The bounds of the cell, which are the largest of (-x, -y, x, y).
+vec4 bounds_of(Cell cell) {
   vec2 reach = vec2(p.width, p.height);
   vec2 at_frame = clamp(corner_rays[0].xy, -reach, 2.0 * reach);
-  sums_of[k] = cell.is_drawn ? vec4(-at_frame, at_frame) : vec4(-FAILED);
-  largest();
-  vec2 extent = sums_of[0].zw + sums_of[0].xy;
-  return max(max(extent.x, extent.y), 0.0);
+  return cell.is_drawn ? vec4(-at_frame, at_frame) : vec4(-FAILED);
 }
+
+float extent_of(vec4 bounds) { return max(max(bounds.x + bounds.z, bounds.y + bounds.w), 0.0); }
 
 void measure(uint item, bool is_middle, vec4 box) {
   uint k = gl_LocalInvocationIndex;
@@ -458,19 +457,25 @@ void measure(uint item, bool is_middle, vec4 box) {
   if (is_middle) middle_density = cell.density;
   barrier();
   if (cell.is_drawn) add_to_histogram(area * cell.open * inside_frame, cell, gain);
-  vec4 all = sum_errors(cell, value, inside_frame);
-  vec2 edges = sum_edge_errors(cell, value, inside_frame);
-  vec2 other = compare_with_middle(cell, value, inside_frame);
-  float extent = find_extent(cell);
+  vec4 errors = errors_of(cell, value, inside_frame), bounds = bounds_of(cell);
+  vec2 edges = edge_errors_of(cell, value, inside_frame), displacement = displacement_of(cell);
+  vec3 products = products_of(cell, value, inside_frame);
+  barrier();  // what lies in the rows has been read
+  rows[0][k] = errors;
+  rows[1][k] = vec4(edges, displacement);
+  rows[2][k] = vec4(products, 0.0);
+  rows[LARGEST_ROW][k] = bounds;
+  sum_rows();
   if (k != 0u) return;
+  vec4 all = rows[0][0], others = rows[1][0];
   uint word = STATE_WORDS * item;
   states[word + STATE_ERROR] = all.x;
-  states[word + STATE_EDGE_ERROR] = edges.x;
-  states[word + STATE_SHARP_ERROR] = edges.y;
-  states[word + STATE_MERGED_ERROR] = all.y + other.y;
+  states[word + STATE_EDGE_ERROR] = others.x;
+  states[word + STATE_SHARP_ERROR] = others.y;
+  states[word + STATE_MERGED_ERROR] = all.y + error_of_colours(rows[2][0].xyz);
   states[word + STATE_FLUX] = all.z;
-  states[word + STATE_DISPLACEMENT] = other.x / max(all.w, 1e-30);
-  states[word + STATE_EXTENT] = extent;
+  states[word + STATE_DISPLACEMENT] = others.z / max(others.w, 1e-30) / max(all.w, 1e-30);
+  states[word + STATE_EXTENT] = extent_of(rows[LARGEST_ROW][0]);
 }
 
 void main() {

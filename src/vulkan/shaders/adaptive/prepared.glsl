@@ -86,7 +86,7 @@ void prepare(uint from, uint count) {
   Polygon q = polygon_of(number);
   uint first = first_of(q), corners = count_of(q);
   vec2 origin = vec2(tile_low - base_of(q));
-  bool is_convex = corners >= 3u && corners <= 8u;
+  bool is_convex = corners >= 3u && corners <= 8u && !is_concave(q);
   if (e >= corners) edges[t] = vec4(0.0, 0.0, 1.0, 0.0);  // every pixel is inside
   if (is_convex && e < corners) {
     vec2 a = large_corner(first + e) - origin, b = large_corner(first + (e + 1u == corners ? 0u : e + 1u)) - origin;

@@ -14,14 +14,15 @@ bool are_primitives() { return (p.flags & LIST_PRIMITIVES) != 0u; }
 // The numbers of what describes the corners: four rays, or those in words 8 to 11 of the record.
 uvec4 corner_words_of(uint polygon) { return large_quarter(4u * polygon + (are_primitives() ? 0u : 2u)); }
 uint corners_of(uvec4 words) { return are_primitives() ? 4u : words.y & CORNERS_MASK; }
+bool is_concave(uvec4 words) { return !are_primitives() && (words.y & CONCAVE) != 0u; }
 ivec2 base_of(uvec4 words) { return are_primitives() ? ivec2(0) : ivec2(words.zw); }
 vec2 corner_of(uvec4 words, uint k) { return are_primitives() ? ray_of(words[k]).xy : large_corner(words.x + k); }
 
-// False where a polygon lies beside a tile, beyond one of its edges.
+// False where a convex polygon lies beside a tile, beyond one of its edges.
 bool may_reach(uint polygon, ivec4 tiles, int k) {
   uvec4 words = corner_words_of(polygon);
   uint count = corners_of(words);
-  if (count < 3u) return true;
+  if (count < 3u || is_concave(words)) return true;
   ivec2 tile_low = p.tile_side * (tiles.xy + ivec2(k % tiles.z, k / tiles.z));
   float half_tile = 0.5 * float(p.tile_side);
   vec2 middle = vec2(tile_low - base_of(words)) + half_tile;
