@@ -256,20 +256,39 @@ float picture_roughness_px(Cell cell) {
 }
 #endif
 
-// The density of a cell some steps from another along an axis; 0: there is none.
-float density_at(uint k, uint axis, int steps) {
-  int at = int(axis == 0u ? gl_LocalInvocationID.x : gl_LocalInvocationID.y) + steps;
-  return at < 0 || at >= int(COARSE_CELLS) ? 0.0 : cell_values[uint(int(k) + steps * (axis == 0u ? 1 : 16))].x;
+// The density of the cell some steps from the invocation's; 0: there is none.
+float density_at(ivec2 steps) {
+  ivec2 at = ivec2(gl_LocalInvocationID.xy) + steps;
+  bool exists = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(COARSE_CELLS)));
+  return exists ? cell_values[16 * at.y + at.x].x : 0.0;
+}
+
+// Densities' relative change across a square of cells: its mixed second difference.
+float mixed_change(float here, vec4 along_axes, vec4 diagonal) {
+  const vec4 signs = vec4(1.0, -1.0, 1.0, -1.0);  // of the quarters, in order
+  vec4 change = (diagonal - along_axes - along_axes.yzwx + here) / here * signs;
+  float sum = 0.0, count = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    if (diagonal[k] == 0.0 || along_axes[k] == 0.0 || along_axes[(k + 1) & 3] == 0.0) continue;
+    sum += change[k];
+    count += 1.0;
+  }
+  return sum / max(count, 1.0);
 }
 
 // The squared part of a cell's density by which a linear function is off. Beside rays that fail, where densities change
 // most, it is taken from two cells on the other side.
+#define SQUARED_OF_MIXED 5.0  // of a mixed difference, by that of one along an axis
 float squared_bend(uint k) {
+  const ivec2 axes[4] = ivec2[4](ivec2(1, 0), ivec2(0, 1), ivec2(-1, 0), ivec2(0, -1));
   float sum = 0.0, here = cell_values[k].x;
-  for (uint axis = 0u; axis < 2u; ++axis) {
-    float before = density_at(k, axis, -1), after = density_at(k, axis, 1);
-    vec3 three = before == 0.0  ? vec3(here, after, density_at(k, axis, 2))
-                 : after == 0.0 ? vec3(density_at(k, axis, -2), before, here)
+  vec4 beside, diagonal;
+  for (int j = 0; j < 4; ++j) beside[j] = density_at(axes[j]);
+  for (int j = 0; j < 4; ++j) diagonal[j] = density_at(axes[j] + axes[(j + 1) & 3]);
+  for (int axis = 0; axis < 2; ++axis) {
+    float before = beside[axis + 2], after = beside[axis];
+    vec3 three = before == 0.0  ? vec3(here, after, density_at(2 * axes[axis]))
+                 : after == 0.0 ? vec3(density_at(-2 * axes[axis]), before, here)
                                 : vec3(before, here, after);
     if (three.x == 0.0 || three.y == 0.0 || three.z == 0.0) continue;
     float change = (three.x - 2.0 * three.y + three.z) / here;
@@ -277,7 +296,9 @@ float squared_bend(uint k) {
     change = clamp(change, -BOUND_LARGEST_DENSITY_CHANGE, BOUND_LARGEST_DENSITY_CHANGE);
     sum += change * change / 64.0;
   }
-  return sum;
+  if (here == 0.0) return sum;
+  float mixed = min(abs(mixed_change(here, beside, diagonal)), BOUND_LARGEST_DENSITY_CHANGE);
+  return sum + SQUARED_OF_MIXED * mixed * mixed / 64.0;
 }
 
 // The part of the cell's bounds that lies in the frame.
