@@ -344,10 +344,11 @@ std::uint32_t AdaptiveFrame::flags() const {
   return bits | dirt_flags(job_.dirt.get()) | (job_.has_axial_symmetry ? kSymmetric : 0U);
 }
 
-// Dim ghosts, which many cells do not better, have fluxes that are off by per cents with 8 cells a side, and by tenths
-// with 12. Frames of many lights have fewer cells, which must fit into the device's buffers.
+// Dim ghosts, which many cells do not better, have fluxes that are off by per cents with 8 cells a side. Fringes need
+// more, as maps to them are linear in half a cell. Frames of many lights have fewer cells, which must fit into the
+// device's buffers.
 std::uint32_t AdaptiveFrame::fewest_cells() const {
-  constexpr std::uint32_t kFine = 12, kUsual = 10, kCoarse = 8;
+  constexpr std::uint32_t kFringed = 16, kUsual = 12, kCoarse = 8;
   constexpr std::uint64_t kManyItems = 4096;  // several lights through a long zoom
   const std::uint64_t items = job_.items.size();
   const auto fits = [&](std::uint64_t cells) {
@@ -355,7 +356,7 @@ std::uint32_t AdaptiveFrame::fewest_cells() const {
     return kShare * items * ((cells + 1) * (cells + 1) + kRaysABlock) <=
            device_.most_of(Slot::Crossings, std::max(kRayBytes, kCrossingBytes));
   };
-  if (items <= kManyItems && fits(kFine)) return kFine;
+  if (has_patterns_ && items <= kManyItems && fits(kFringed)) return kFringed;
   return fits(kUsual) ? kUsual : kCoarse;
 }
 

@@ -16,7 +16,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "../stop/occluders.glsl"
 #endif
 
-#define BOUND_LARGEST_DENSITY_CHANGE 2.0
+#define BOUND_LARGEST_DENSITY_CHANGE 6.0
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define LARGEST_ROUGHNESS 0.5             // the mean squared slope by pixel of a pattern
