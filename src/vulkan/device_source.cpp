@@ -22,7 +22,7 @@ std::shared_ptr<OpenedDevice> DeviceSource::device() {
     if (!again) throw std::runtime_error(again.error().message);
     instance_ = std::move(*again);
   }
-  device_ = std::make_shared<OpenedDevice>(instance_, info_, options_.lent, queue_mutex_);
+  device_ = std::make_shared<OpenedDevice>(instance_, info_, options_, queue_mutex_);
   return device_;
 }
 

@@ -20,11 +20,11 @@ constexpr std::uint32_t kTileGroup = 256, kTileGroupOfProcessor = 32;
 }  // namespace
 
 OpenedDevice::OpenedDevice(std::shared_ptr<const Instance> instance, const DeviceInfo& info,
-                           const std::optional<VulkanHandles>& lent, std::shared_ptr<std::mutex> queue_mutex)
-    : instance_(std::move(instance)), is_processor_(info.kind == "processor"),
+                           const DeviceOptions& options, std::shared_ptr<std::mutex> queue_mutex)
+    : instance_(std::move(instance)), draws_as_processor_(info.kind == "processor" && !options.draws_as_gpu),
       properties_(instance_->physical(info.index).getProperties()),
-      memory_(instance_->physical(info.index).getMemoryProperties()), queued_(instance_->physical(info.index), lent),
-      queue_mutex_(std::move(queue_mutex)) {
+      memory_(instance_->physical(info.index).getMemoryProperties()),
+      queued_(instance_->physical(info.index), options.lent), queue_mutex_(std::move(queue_mutex)) {
   make_layouts();
   const std::vector<std::uint8_t> kept = read_pipeline_file(properties_);
   cache_ = device().createPipelineCache(vk::PipelineCacheCreateInfo({}, kept.size(), kept.data()));
@@ -60,10 +60,12 @@ vk::raii::Pipeline OpenedDevice::compiled(Program program) const {
   const auto code = code_of(program.shader);
   const vk::raii::ShaderModule module(device(), vk::ShaderModuleCreateInfo({}, code.size_bytes(), code.data()));
   constexpr std::uint32_t kSize = sizeof(std::uint32_t);
-  const std::array<std::uint32_t, 6> values{
-      static_cast<std::uint32_t>(program.geometry),       program.has_picture ? VK_TRUE : VK_FALSE,
-      static_cast<std::uint32_t>(program.interpolation),  is_processor_ ? VK_TRUE : VK_FALSE,
-      is_processor_ ? kTileGroupOfProcessor : kTileGroup, program.has_patterns ? VK_TRUE : VK_FALSE};
+  const std::array<std::uint32_t, 6> values{static_cast<std::uint32_t>(program.geometry),
+                                            program.has_picture ? VK_TRUE : VK_FALSE,
+                                            static_cast<std::uint32_t>(program.interpolation),
+                                            draws_as_processor_ ? VK_TRUE : VK_FALSE,
+                                            draws_as_processor_ ? kTileGroupOfProcessor : kTileGroup,
+                                            program.has_patterns ? VK_TRUE : VK_FALSE};
   const std::array entries{vk::SpecializationMapEntry(kGeometryConstant, 0, kSize),
                            vk::SpecializationMapEntry(kPictureConstant, kSize, kSize),
                            vk::SpecializationMapEntry(kInterpolationConstant, 2 * kSize, kSize),

@@ -21,8 +21,8 @@ namespace contrejour::inline internal::vulkan {
 class OpenedDevice {
  public:
   // queue_mutex: of a lent queue, which is the same whenever its device is opened.
-  OpenedDevice(std::shared_ptr<const Instance> instance, const DeviceInfo& info,
-               const std::optional<VulkanHandles>& lent, std::shared_ptr<std::mutex> queue_mutex);
+  OpenedDevice(std::shared_ptr<const Instance> instance, const DeviceInfo& info, const DeviceOptions& options,
+               std::shared_ptr<std::mutex> queue_mutex);
   ~OpenedDevice();
   OpenedDevice(const OpenedDevice&) = delete;
   OpenedDevice& operator=(const OpenedDevice&) = delete;
@@ -57,7 +57,7 @@ class OpenedDevice {
   [[nodiscard]] vk::raii::Pipeline compiled(Program program) const;
 
   std::shared_ptr<const Instance> instance_;
-  bool is_processor_;
+  bool draws_as_processor_;  // with code for processors
   vk::PhysicalDeviceProperties properties_;
   vk::PhysicalDeviceMemoryProperties memory_;
   QueuedDevice queued_;

@@ -170,3 +170,26 @@ TEST_CASE("a frame whose polygons do not fit into a buffer is drawn in bands, an
   CHECK(again.image.pixels == in_bands.image.pixels);
   test::check_no_messages();
 }
+
+// Processors have code of their own for rays in pairs, sums and tiles. What it draws, the code for GPUs has to draw,
+// too.
+TEST_CASE("a processor draws the same with the code for GPUs [slow]") {
+  OnDevice own, as_gpu({.draws_as_gpu = true});
+  if (!own.kept.device) return;
+  const LensState heliar = lens_of("heliar", 7, 8.0), anamorphic = lens_of("schneider-anamorphic-31", 0, 8.0);
+  const auto check_same = [&](const MethodOptions& method, const LensState& lens, const FrameSettings& settings) {
+    const auto lights = std::span(kTwoLights).first(1);
+    const Flare expected = frame_by(method, lens, lights, settings, own.cache);
+    const Flare got = frame_by(method, lens, lights, settings, as_gpu.cache);
+    test::check_agreement(as_gpu, lens, expected, got, {90.0, 1e-5});
+    CHECK(got.statistics.rays == expected.statistics.rays);
+  };
+  FrameSettings settings = settings_of(heliar, 48, 27);
+  check_same(AdaptiveOptions{}, heliar, settings);
+  settings.ringing.mode = RingingMode::Fresnel;
+  check_same(AdaptiveOptions{}, heliar, settings);
+  FrameSettings of_anamorphic = settings_of(anamorphic, 32, 24);
+  of_anamorphic.selection = SelectBrightest{4};
+  check_same(AdaptiveOptions{}, anamorphic, of_anamorphic);
+  test::check_no_messages();
+}

@@ -235,6 +235,7 @@ struct DeviceOptions {
   std::uint64_t most_buffer_bytes = 0;  // a smaller limit than the device's for one buffer, for tests; 0: the device's
   int most_rows = 0;  // of a picture that are drawn at once, for tests; 0: as many as fit into the device's buffers
   int large_pixels = 0;  // from which on `bundle` and `tiled` draw by tile, for tests; 0: what suits the device
+  bool draws_as_gpu = false;  // a processor, too, with the code for GPUs, for tests
   // Called before each submission with its number, by each thread that draws; an exception counts as the device's
   // failure. For tests.
   std::function<void(std::uint64_t submission)> before_submission = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clips triangles of rays by rims and the iris: render/bundle/cell_clip.cpp under the same names. Functions are linear in
-// a triangle, and described by its first, second and third corner.
+// Clips triangles of rays by rims and the iris: render/bundle/cell_clip.cpp under the same names. Functions are linear
+// in a triangle, and described by its first, second and third corner.
 #include "polygon.glsl"
 float values_of_bound[3];  // at the triangle's corners
 

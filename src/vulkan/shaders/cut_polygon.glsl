@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts the polygon (polygon.glsl) by a bound, and keeps the part where the bound's function is <= 0 (Sutherland-Hodgman):
-// bound_at(), which whoever includes this file defines. Whoever defines CURVED as true has bounds that are not linear: the
-// points at which they cross sides of the polygon are refined, and their edges have a point more, between these.
+// Cuts the polygon (polygon.glsl) by a bound, and keeps the part where the bound's function is <= 0
+// (Sutherland-Hodgman): bound_at(), which whoever includes this file defines. Whoever defines CURVED as true has bounds
+// that are not linear: the points at which they cross sides of the polygon are refined, and their edges have one point
+// more, between these.
 #ifndef CURVED
 #define CURVED false
 #endif
 
 int first_corner = 0;
-// A polygon of few corners is here while it is cut, without indices that vary, which would keep it in memory: on lavapipe
-// each such number is written in a branch of its own.
+// A polygon of few corners is here while it is cut, without indices that vary, which would keep it in memory: on
+// lavapipe each such number is written in a branch of its own.
 #define FEW_CORNERS 8
 #define MORE_AFTER_CUT (CURVED ? 2 : 1)  // the corners that a convex polygon has more after a cut, at most
 vec2 few[FEW_CORNERS];
 bool has_few;
 
-// A side of the polygon that a bound crosses, the bound's values at its ends, and the place of the crossing among the new
-// corners.
+// A side of the polygon that a bound crosses, the bound's values at its ends, and the place of the crossing among the
+// new corners.
 struct CrossedSide {
   vec2 from, to;
   float at_from, at_to;
@@ -32,7 +33,8 @@ const CutEdge kNoEdge = CutEdge(kNotCrossed, kNotCrossed, -1);
 
 vec2 linear_crossing(CrossedSide s) { return s.from + (s.to - s.from) * (s.at_from / (s.at_from - s.at_to)); }
 
-// The crossing of a bound whose function is about a parabola along the side, which its value at the linear crossing tells.
+// The crossing of a bound whose function is about a parabola along the side. The function's value at the linear crossing
+// says which.
 vec2 refined_crossing(CrossedSide s) {
   float change = s.at_to - s.at_from, t = -s.at_from / change;
   float off = bound_at(mix(s.from, s.to, t));
@@ -41,18 +43,21 @@ vec2 refined_crossing(CrossedSide s) {
   return mix(s.from, s.to, clamp(t - off / slope, 0.0, 1.0));
 }
 
-// A point for the middle of an edge between two points of a bound: as far beyond the bound as makes the area beside the
-// two sides that of a parabola, which is 2/3 of its height by its width.
+// A point for the middle of an edge between two points of a bound. The area beside the edge's two straight pieces is to
+// be that of a parabola, 2/3 of its height by its width, so that the point lies a third of the height beyond the bound.
 #define FARTHEST_MIDDLE 0.5  // from the chord, by its length
 vec2 middle_of_edge(vec2 a, vec2 b) {
   const float parabola_by_triangle = 4.0 / 3.0, step_by = 0.25;
   vec2 middle = 0.5 * (a + b), normal = vec2(a.y - b.y, b.x - a.x);
   float here = bound_at(middle), slope = (bound_at(middle + step_by * normal) - here) / step_by;
-  float by = abs(here) * parabola_by_triangle < FARTHEST_MIDDLE * abs(slope) ? -here * parabola_by_triangle / slope : 0.0;
+  float height = parabola_by_triangle * here;
+  float by = abs(height) < FARTHEST_MIDDLE * abs(slope) ? -height / slope : 0.0;
   return clamp(middle + by * normal, vec2(0.0), vec2(1.0));
 }
 
-bool appends_middle(CutEdge edge, float fa, float fb) { return CURVED && edge.leaves.place >= 0 && fa > 0.0 && fb <= 0.0; }
+bool appends_middle(CutEdge edge, float fa, float fb) {
+  return CURVED && edge.leaves.place >= 0 && fa > 0.0 && fb <= 0.0;
+}
 
 // Notes that a side crosses the bound; the crossing is about to be appended.
 void note_crossing(inout CutEdge edge, vec2 a, vec2 b, float fa, float fb, int place) {
@@ -92,7 +97,8 @@ void cut_few() {
   }
   if (wraps(edge)) edge.middle_place = count++;
   if (CURVED) {
-    vec2 first = refined_crossing(edge.leaves), last = refined_crossing(edge.enters), middle = middle_of_edge(first, last);
+    vec2 first = refined_crossing(edge.leaves), last = refined_crossing(edge.enters);
+    vec2 middle = middle_of_edge(first, last);
     for (int j = 0; j < FEW_CORNERS; ++j) {
       if (j == edge.leaves.place) next[j] = first;
       if (j == edge.enters.place) next[j] = last;
@@ -128,7 +134,8 @@ void cut_many() {
     bool is_crossing = (k & 1) != 0;
     vec2 b = polygon[first_corner + (k / 2 + 1 == corner_count ? 0 : k / 2 + 1)];
     float fb = bound_at(b);
-    bool makes_middle = !is_crossing && appends_middle(edge, fa, fb), crosses = is_crossing && (fa <= 0.0) != (fb <= 0.0);
+    bool makes_middle = !is_crossing && appends_middle(edge, fa, fb);
+    bool crosses = is_crossing && (fa <= 0.0) != (fb <= 0.0);
     if (makes_middle) edge.middle_place = count;
     if (crosses) note_crossing(edge, a, b, fa, fb, count);
     bool appends = is_crossing ? crosses : fa <= 0.0 || makes_middle;

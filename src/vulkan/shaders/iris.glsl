@@ -29,8 +29,8 @@ float blocked(uint ray, uint crossing_count) {
   return most;
 }
 
-// A circle within a disc: tangents of a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing is 0.05 over
-// sqrt(r).
+// The arc of a circle within a disc. Tangents of a radius r >= 1 deviate from the arc by less than 3e-4 if their spacing
+// is 0.05 over sqrt(r).
 #define MAX_TANGENTS 12
 struct Arc {
   float middle_angle, half_angle;

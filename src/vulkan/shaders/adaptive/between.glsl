@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a cell between the rays of a grid: values at a part's corners, and the second differences along its sides, as
-// the rays around show them. Values in it are bilinear, less what they bend. All are the same sums over twelve rays.
+// Parts of a cell between the rays of a grid: values at a part's corners, and the second differences along its sides,
+// as the rays around show them. Values in it are bilinear, less what they bend. All are the same sums over twelve rays.
 //
 //        0  1
 //     2  3  4  5      the cell is 3, 4, 8, 7

@@ -58,8 +58,8 @@ bool list_open(uvec4 v) {
   return true;
 }
 
-// Parts are no smaller than half a pixel. Where the image of an open cell folds, only smaller parts follow the fold; edges
-// have a point between their ends.
+// Parts are no smaller than half a pixel. Edges have a point between their ends, but only smaller parts follow the folds
+// of open cells.
 uint cut_parts(uvec4 v, bool is_open) {
   vec2 low = min(min(ray_of(v.x).xy, ray_of(v.y).xy), min(ray_of(v.z).xy, ray_of(v.w).xy));
   vec2 high = max(max(ray_of(v.x).xy, ray_of(v.y).xy), max(ray_of(v.z).xy, ray_of(v.w).xy));

@@ -4,7 +4,7 @@
 #include "../polygon.glsl"
 #include "patch.glsl"
 
-// What clips: a function's values at the part's corners, and its second differences along the sides.
+// The function that clips: its values at the part's corners, and its second differences along the sides.
 vec4 corners_of_bound, bends_of_bound;
 
 float bound_at(vec2 at) {
@@ -15,7 +15,7 @@ float bound_at(vec2 at) {
 #define CURVED true
 #include "../cut_polygon.glsl"
 
-// What is drawn: the part whole, or in halves.
+// The part is drawn whole, or in halves.
 #define WHOLE 0u
 #define FIRST_HALF 1u
 #define SECOND_HALF 2u
@@ -33,7 +33,9 @@ void begin_part() {
 }
 
 // The corners, with the first one in place of one that is not drawn.
-vec4 drawn_values(vec4 at) { return vec4(at.x, drawn == SECOND_HALF ? at.x : at.y, at.z, drawn == FIRST_HALF ? at.x : at.w); }
+vec4 drawn_values(vec4 at) {
+  return vec4(at.x, drawn == SECOND_HALF ? at.x : at.y, at.z, drawn == FIRST_HALF ? at.x : at.w);
+}
 bool any_beyond(vec4 at) { return any(greaterThan(drawn_values(at), vec4(0.0))); }
 
 // A bound of the iris, as two bound_half().
@@ -48,7 +50,7 @@ IrisBound iris_bound(uint b) {
   return IrisBound(bound_half(2u * b), bound_half(2u * b + 1u));
 }
 
-// How far a point at the stop lies beyond a bound, as bound_distance().
+// The distance of a point at the stop beyond a bound, as bound_distance().
 float distance_from(IrisBound bound, vec2 q) {
   vec4 line = bound.line, circle = bound.circle;
   float power = dot(q, q) - 2.0 * dot(circle.xy, q) + circle.w;
@@ -80,7 +82,7 @@ void find_disc(Patch stops, vec2 centre, out vec2 middle, out float half_extent)
   for (int k = 0; k < 4; ++k) half_extent = max(half_extent, length(corners[k] - middle));
 }
 
-// Where rays cross the stop, of the part that is clipped.
+// The part that is clipped: the points at which its rays cross the stop, and their relative heights.
 Patch stops_of_part[MAX_CROSSINGS];
 vec4 heights_of_part, height_bends_of_part;
 Patch stops_at(uint c) {
@@ -130,8 +132,9 @@ void clip_by(uint number) {
   }
 }
 
-// Leaves what passes the rims, and the iris at a number of crossings. Bounds are found before they clip, 32 at a time, and
-// all clip at one place: lavapipe clips in each turn of a loop in which one invocation does, and on both sides of branches.
+// Leaves what passes the rims, and the iris at a number of crossings. Bounds are found before they clip, 32 at a time,
+// and all clip at one place: lavapipe clips in each turn of a loop in which one invocation does, and on both sides of
+// branches.
 void clip_part(uint crossing_count) {
   begin_part();
   uint count = 1u + crossing_count * bounds_of_iris();

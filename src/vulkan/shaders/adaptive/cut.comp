@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the polygons of a part of a cell that is cut by rims or the iris, or is not smooth, one invocation a part. Edges of
-// ghosts are finer than the grid: the corners of parts lie between the rays.
+// Lists the polygons of a part of a cell that is cut by rims or the iris, or is not smooth, one invocation a part. Edges
+// of ghosts are finer than the grid: the corners of parts lie between the rays, and each edge has a point between its
+// ends.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 64) in;
@@ -28,7 +29,7 @@ struct Part {
 };
 Part part;
 
-// What is drawn of it, a quadrilateral or a triangle: its first, second and last corner.
+// The quadrilateral or triangle that is drawn of it: its first, second and last corner.
 vec2 pixels[3];
 float area_px;       // of the whole
 float transmission;  // its mean, or twice that of a quadrilateral
@@ -43,7 +44,7 @@ uint pattern = 0u;
 vec2 last_stops[3];
 bool is_dimmed = false;  // the triangle, by more than rims and the sharp iris
 #define MEAN_OF_BENDS (1.0 / 24.0)  // of a square's parabolas, by the sum of the four second differences
-#define MOST_LEVEL 2.0
+#define MOST_LEVEL 2.0  // of a part's density, by that between straight sides
 #ifdef OCCLUDERS
 #define IS_OCCLUDED true
 // Shadows are sharper than most fringes, so that all triangles in a pixel must have the mean over the pixel, or each of
@@ -183,7 +184,7 @@ vec2 pixel_between(vec2 at) {
   return pixels[0] + (pixels[1] - pixels[0]) * along.x + (pixels[2] - pixels[0]) * along.y;
 }
 
-// How far a pixel lies from there, since the sides bend. The side between two halves is straight.
+// The distance of the pixel from there, since the sides bend. The side between two halves is straight.
 vec2 bent_by(vec2 at) {
   if (drawn == WHOLE) return value_at(part.pixels, at) - bilinear(part.pixels, at);
   vec2 along = in_triangle(at), bend_of_middle = part.pixels.bends[drawn == FIRST_HALF ? 1 : 2];
@@ -244,9 +245,9 @@ void read_part(vec2 low, float size) {
 #endif
 }
 
-// Where the triangle's rays cross the stop, linearly: moved by the mean of what that bends.
+// The points at which the triangle's rays cross the stop, for a linear map: moved by the mean of what they bend.
 vec2[3] stops_of_drawn(uint c) {
-  vec2 bend = stops_of_part[c].bends[0] + stops_of_part[c].bends[1] + stops_of_part[c].bends[2] + stops_of_part[c].bends[3];
+  vec2 bends[4] = stops_of_part[c].bends, bend = bends[0] + bends[1] + bends[2] + bends[3];
   vec2 at[3] = drawn_corners(stops_of_part[c].corners);
   for (int k = 0; k < 3; ++k) at[k] -= MEAN_OF_BENDS * bend;
   return at;
@@ -269,9 +270,9 @@ void set_drawn(uint how) {
   area_px = 0.5 * abs(how == WHOLE ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));
 }
 
-// Whether the part's image is about a parallelogram, and not about to fold: its light is even, and its sides bend little.
+// Whether the part's image is not about to fold, so that its sides bend little.
 #define LEAST_CORNER 0.2  // the area of the parallelogram at a corner of a quadrilateral, by the mean
-bool is_even() {
+bool is_unfolded() {
   vec2 a = part.pixels.corners[0], b = part.pixels.corners[1], c = part.pixels.corners[2], d = part.pixels.corners[3];
   vec4 areas = vec4(cross2(b - a, d - a), cross2(c - b, a - b), cross2(d - c, b - c), cross2(a - d, c - d));
   float least = LEAST_CORNER * 0.25 * abs(areas.x + areas.y + areas.z + areas.w);
@@ -302,7 +303,7 @@ void main() {
   float size = 1.0 / float(parts);
   read_part(vec2(number % parts, number / parts) * size, size);
   triangle_weight *= size * size;
-  bool is_linear = !is_even();
+  bool is_linear = !is_unfolded();
   if (is_linear) part.pixels.bends = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
   // Patterns and occluders are linear over triangles.
   bool has_halves = !any(fails) && (IS_OCCLUDED || pattern != 0u || is_linear);

@@ -9,9 +9,7 @@
 // In frames with occluders (occluders.glsl) the high bits are a mask. If it is not 0, the next corner has the bits of
 // the edges, and the pattern's number with that of the last crossing in the highest bits. A map of three corners
 // follows for each point that the mask needs.
-#define RECORD_WORDS 16u
-#define PATTERN_SHIFT 8u
-#define CONCAVE 0x80u  // a flag beside the number of corners: a polygon may not be convex
+#include "../lists/record_words.glsl"
 #ifdef OCCLUDERS
 #define MOST_MAP_CORNERS 13u
 #else

@@ -16,22 +16,23 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "../stop/occluders.glsl"
 #endif
 
-#define BOUND_LARGEST_DENSITY_CHANGE 6.0
+#define BOUND_LARGEST_DENSITY_CHANGE 6.0  // of folds; chosen, so that caustics are as exact as the rest
 #define UNKNOWN_SAG_SQUARED (1.0 / 32.0)  // beside rays that fail, pixels
 #define TYPICAL_BEND 0.45                 // along an edge, of the sum of all second differences
 #define LARGEST_ROUGHNESS 0.5             // the mean squared slope by pixel of a pattern
-// A parabola of height 1, by two straight lines: with a point between its ends that keeps the area (cut_polygon.glsl), and
-// with one on the parabola.
+// The squared distance of two straight lines from a parabola of height 1 for which they stand: with a point between its
+// ends that keeps the area (cut_polygon.glsl), and with one on the parabola.
 #define SQUARED_WITH_AREA (2.0 / 135.0)
 #define SQUARED_ON_CURVE (1.0 / 30.0)
 #define SIDES_PART 0.56                   // of the bends of sides that edges show; chosen, not derived
 
-// Values that are read together lie together, and are read once: lavapipe reads each word of shared memory in a loop. They
-// lie where the sums are made later. Each ray's pixel; its transmission, -1 if it fails; and its largest height at a rim.
+// Values that are read together lie together, and are read once: lavapipe reads each word of shared memory in a loop.
+// They lie in the rows in which the sums are made later. Each ray's pixel; its transmission, -1 if it fails; and its
+// largest height at a rim.
 #define RAY_ROW 0u
 // The point farthest outside at which it crosses the stop, and the point's distance from the iris, < 0 inside.
 #define STOP_ROW 1u
-// Of items with a stop pattern, where the ray crosses the stop last; with dirt, where it crosses its plane last, mm.
+// The point at which it crosses the stop last, if the item has a stop pattern, and that in the plane of dirt, mm.
 #define SEEN_ROW 3u
 // A cell's density, with the sign of its area, 0 if there is none; the square of its value, times its area in the frame.
 shared vec2 cell_values[256];

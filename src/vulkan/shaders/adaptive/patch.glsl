@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values in a square from those at its corners, in order, and the second differences along its sides (that from each
-// corner to the next): bilinear, less a parabola along each side.
+// Values in a square from those at its corners, in order, and from the second differences along its sides, each from a
+// corner to the next: bilinear, less a parabola along each side.
 struct Patch4 {
   vec4 corners[4], bends[4];
 };
