@@ -195,6 +195,9 @@ vec4 box_of_level(uint group, uint level) {
   // if the next level resolves what was found in the larger box.
   uvec4 both = max(passes, may_pass);
   if (level == 1u && extent_of(both, cells) <= 9u * extent_of(passes, cells)) f = both;
+  // Later, cells that may pass about those that do are left out; others have parts of a pupil thinner than a cell.
+  for (uint k = 0u; k < 4u && level > ALL_ITEMS_LEVEL && passes.z > 0u; ++k)
+    if (may_pass[k] > passes[k] + 1u) f[k] = may_pass[k];
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
   vec4 searched = searched_part(level - 1u, box);
   vec2 step_mm = searched.zw / vec2(cells);
