@@ -171,6 +171,20 @@ TEST_CASE("a frame whose polygons do not fit into a buffer is drawn in bands, an
   test::check_no_messages();
 }
 
+// The arms of this ghost's pupil are thinner than a cell of the search; without them it lacks 5 per cent.
+TEST_CASE("thin parts of a pupil are drawn on the device") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("nikon-80-200", 0, 5.6);
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.selection = SelectList{{{4, 9}}};
+  const Light light{.direction = direction_from_angles(0.045, 0.0253)};
+  const Flare exact = frame_by(AdaptiveOptions{0.0005}, lens, {&light, 1}, settings, device.cpu_cache);
+  const Flare got = frame_by(AdaptiveOptions{}, lens, {&light, 1}, settings, device.cache);
+  test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(AdaptiveOptions{}.error), 0.002});
+  test::check_no_messages();
+}
+
 // Processors have code of their own for rays in pairs, sums and tiles. What it draws, the code for GPUs has to draw,
 // too.
 TEST_CASE("a processor draws the same with the code for GPUs [slow]") {
