@@ -184,6 +184,7 @@ uint item_of_first_level(uint group, uint level) {
 // The number of cells within bounds.
 uint extent_of(uvec4 f, uvec2 cells) { return f.z == 0u ? 0u : (f.x + f.z - cells.x) * (f.y + f.w - cells.y); }
 
+#define MOST_FARTHER 4u  // the largest growth of a box by cells that may pass
 // The box of a level of the search after the first ones, from the bounds that the level before found.
 vec4 box_of_level(uint group, uint level) {
   uint before = number_of_level(group, level == 1u ? first_level(group) : level - 1u);
@@ -195,9 +196,14 @@ vec4 box_of_level(uint group, uint level) {
   // if the next level resolves what was found in the larger box.
   uvec4 both = max(passes, may_pass);
   if (level == 1u && extent_of(both, cells) <= 9u * extent_of(passes, cells)) f = both;
-  // Later, cells that may pass about those that do are left out; others have parts of a pupil thinner than a cell.
-  for (uint k = 0u; k < 4u && level > ALL_ITEMS_LEVEL && passes.z > 0u; ++k)
-    if (may_pass[k] > passes[k] + 1u) f[k] = may_pass[k];
+  // Later, cells that may pass about those that do are left out. Others have parts of a pupil thinner than a cell, and
+  // count in the same way.
+  if (level > ALL_ITEMS_LEVEL && passes.z > 0u) {
+    uvec4 farther = passes;
+    for (uint k = 0u; k < 4u; ++k)
+      if (may_pass[k] > passes[k] + 1u) farther[k] = may_pass[k];
+    if (extent_of(farther, cells) <= MOST_FARTHER * extent_of(passes, cells)) f = farther;
+  }
   if (f.z == 0u) return vec4(box.xy, 0.0, 0.0);
   vec4 searched = searched_part(level - 1u, box);
   vec2 step_mm = searched.zw / vec2(cells);
