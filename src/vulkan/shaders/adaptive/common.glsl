@@ -197,8 +197,8 @@ vec4 box_of_level(uint group, uint level) {
   uvec4 both = max(passes, may_pass);
   if (level == 1u && extent_of(both, cells) <= 9u * extent_of(passes, cells)) f = both;
   // Later, cells that may pass about those that do are left out. Others have parts of a pupil thinner than a cell, and
-  // count in the same way.
-  if (level > ALL_ITEMS_LEVEL && passes.z > 0u) {
+  // count in the same way, but for frames with fringes, whose faint ends would enlarge the boxes.
+  if (!HAS_PATTERNS && level > ALL_ITEMS_LEVEL && passes.z > 0u) {
     uvec4 farther = passes;
     for (uint k = 0u; k < 4u; ++k)
       if (may_pass[k] > passes[k] + 1u) farther[k] = may_pass[k];
