@@ -31,8 +31,6 @@ struct CutEdge {
 };
 const CutEdge kNoEdge = CutEdge(kNotCrossed, kNotCrossed, -1);
 
-vec2 linear_crossing(CrossedSide s) { return s.from + (s.to - s.from) * (s.at_from / (s.at_from - s.at_to)); }
-
 // The crossing of a bound whose function is about a parabola along the side. The function's value at the linear crossing
 // says which.
 vec2 refined_crossing(CrossedSide s) {
@@ -144,7 +142,8 @@ void cut_many() {
     fa = is_crossing ? fb : fa;
   }
   if (wraps(edge) && count < MAX_CORNERS) edge.middle_place = count++;
-  if (CURVED && edge.middle_place >= 0) {
+  int last_place = max(max(edge.leaves.place, edge.enters.place), edge.middle_place);
+  if (CURVED && edge.middle_place >= 0 && last_place < count) {  // all of them have found room
     vec2 first = refined_crossing(edge.leaves), last = refined_crossing(edge.enters);
     polygon[to + edge.leaves.place] = first;
     polygon[to + edge.enters.place] = last;

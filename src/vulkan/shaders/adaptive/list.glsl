@@ -32,7 +32,7 @@ bool pixels_of(vec2 low, vec2 high, out ivec4 box) {
 }
 
 uint record_pattern = 0u;  // of the polygon to be listed, or its mask; 0: none
-bool is_concave = false;
+bool is_concave = false;   // the polygon to be listed
 uint map_corners = 4u;
 vec2 pattern_map[MOST_MAP_CORNERS];
 
