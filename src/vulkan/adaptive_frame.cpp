@@ -72,6 +72,7 @@ void AdaptiveFrame::upload_paths() {
   if (kept_.paths == job_.paths) return;
   PathData data;
   kept_.paths = nullptr;  // until all is there
+  kept_.searched = {};
   kept_.places.clear();
   for (const PacketPath& path : job_.paths->paths) kept_.places.push_back(data.add(path, PacketPrecision::Float));
   device_.upload(Slot::Floats, data.floats());
@@ -128,6 +129,19 @@ void AdaptiveFrame::upload_items(const Frame& band) {
   parameters_.bound_count = narrow(bounds.size() / 8);
 }
 
+// Lights that stand still keep their pupils, whatever their brightness and the frame.
+SearchInput AdaptiveFrame::search_input() const {
+  const auto bits_of = [](double number) { return std::bit_cast<std::uint32_t>(static_cast<float>(number)); };
+  std::vector<std::uint32_t> words{parameters_.window_blocks, parameters_.flags & kSymmetric};
+  for (const DeviceGroup& group : job_.groups) words.insert(words.end(), {group.first, group.count, group.middle});
+  for (const DeviceItem& item : job_.items)
+    words.insert(words.end(),
+                 {item.path, item.start, item.pattern, bits_of(item.window_mm.x), bits_of(item.window_mm.y)});
+  for (const DeviceStart& start : job_.starts)
+    std::ranges::transform(start_numbers(start.start, start.meridian, {}), std::back_inserter(words), bits_of);
+  return {std::move(words), job_.patterns};
+}
+
 // Drivers may bound the turns of an invocation's loops (lavapipe: 65535 in all), and each polygon of a list may take
 // several for every point, and for every stroke about a point, in each part of a pixel.
 std::uint32_t AdaptiveFrame::list_part() const {
@@ -169,9 +183,9 @@ void AdaptiveFrame::need_buffers() {
   parameters_.cut_capacity = narrow(capacity_.cut_cells);
 }
 
-// Clears the buffers that the search counts into.
+// Clears the buffers that the search and the measures count into.
 void AdaptiveFrame::clear_search() {
-  device_.clear(Slot::Found, 0, kFoundBytes * kSearchLevelsKept * job_.groups.size());
+  if (!has_pupils_) device_.clear(Slot::Found, 0, kFoundBytes * kSearchLevelsKept * job_.groups.size());
   device_.clear(Slot::Sums, 0, kHistogramBytes);
   device_.clear(Slot::Counters, sizeof(std::uint32_t) * kRayBlocks, sizeof(std::uint32_t) * (kCounters - kRayBlocks));
 }
@@ -189,7 +203,7 @@ void AdaptiveFrame::dispatch_at(std::uint32_t level, Program program, GroupCount
   device_.dispatch(for_iris(program), p, groups);
 }
 
-void AdaptiveFrame::search() {
+void AdaptiveFrame::search_pupils() {
   const std::uint64_t groups = job_.groups.size();
   for (const std::uint32_t level : kSearchLevels) {
     dispatch_at(level, {Shader::AdaptiveSearch, geometry_},
@@ -197,7 +211,12 @@ void AdaptiveFrame::search() {
     device_.barrier();
   }
   device_.end_stage("pupils");
-  dispatch({choose(Shader::AdaptiveMeasure, Shader::AdaptiveMeasureOccluded), geometry_}, rows_of(groups));
+}
+
+// Finds the pupils, if they are not known, and distributes the error.
+void AdaptiveFrame::search() {
+  if (!has_pupils_) search_pupils();
+  dispatch({choose(Shader::AdaptiveMeasure, Shader::AdaptiveMeasureOccluded), geometry_}, rows_of(job_.groups.size()));
   device_.barrier();
   device_.end_stage("measures");
   dispatch(Shader::AdaptiveBudget, {1, 1});
@@ -240,6 +259,8 @@ bool AdaptiveFrame::finish_try() {
   device_.fetch(Slot::Counters, sizeof(std::uint32_t) * kCounters);
   device_.end_stage("fetch");
   device_.finish();
+  if (!has_pupils_) kept_.searched = search_input_;
+  has_pupils_ = true;
   std::copy_n(device_.read<std::uint32_t>(), std::size_t{kCounters}, counters_.begin());
   work_.add_stages(device_.stages_ms());
   return counters_[kOverflows] == 0;
@@ -380,6 +401,9 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.least_peak = static_cast<float>(job_.least_peak);
   p.merge_error = static_cast<float>(job_.error * std::sqrt(kMergeShare / static_cast<double>(job_.items.size())));
   prepare(frame);
+  search_input_ = search_input();
+  has_pupils_ = kept_.searched == search_input_;
+  if (!has_pupils_) kept_.searched = {};  // until they are found
   if (rows_a_band() < frame.height || !grow_until([&] { return try_rows(0, true, image); }))
     draw_in_bands(image, context);
   else if (context.progress)

@@ -28,12 +28,20 @@ struct AdaptiveCapacity {
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
+// All that the search for pupils reads, besides the paths: frames of which it is the same have the same pupils.
+struct SearchInput {
+  std::vector<std::uint32_t> words;
+  std::shared_ptr<const DevicePatterns> patterns;  // whose extents the iris has
+  bool operator==(const SearchInput&) const = default;
+};
+
 // The data that stay on the device from frame to frame, and the sizes of its buffers.
 struct AdaptiveKept {
   int most_rows = 0;  // DeviceOptions::most_rows
   AdaptiveCapacity capacity;
   std::shared_ptr<const DevicePaths> paths;  // that are uploaded; null: none
   std::vector<PathPlace> places;  // by path
+  SearchInput searched;  // whose pupils are in Slot::Found; empty: none
 };
 
 // A frame whose rays do not fit into the device's buffers: fewer groups of it may.
@@ -63,10 +71,12 @@ class AdaptiveFrame {
   [[nodiscard]] int rows_a_band() const;
   void upload_paths();
   void upload_items(const Frame& band);
+  [[nodiscard]] SearchInput search_input() const;
   void need_buffers();
   void clear_search();
   void clear_lists();
   void search();
+  void search_pupils();
   void list_polygons();
   void fill_tiles();
   [[nodiscard]] std::uint64_t sums_bytes() const;
@@ -114,6 +124,8 @@ class AdaptiveFrame {
   AdaptiveParameters parameters_;
   TileLists lists_;
   bool in_bands_ = false;
+  SearchInput search_input_;
+  bool has_pupils_ = false;  // in Slot::Found, from an earlier frame or submission
   std::array<std::uint32_t, kCounters> counters_{};  // of the last try
   DeviceWork work_;
 };

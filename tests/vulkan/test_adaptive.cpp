@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of `adaptive` that a device draws by its own data flow, against the CPU's at a thirtieth of the error.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,6 +20,11 @@ void check_near(OnDevice& device, const LensState& lens, std::span<const Light> 
   const Flare exact = frame_by(AdaptiveOptions{kFine}, lens, lights, colour, device.cpu_cache);
   const Flare got = frame_by(AdaptiveOptions{error}, lens, lights, colour, device.cache);
   test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(error), flux_error});
+}
+
+bool has_searched(const Flare& flare) {
+  return std::ranges::any_of(flare.statistics.time_ms,
+                             [](const auto& stage) { return stage.first == "device: pupils"; });
 }
 
 }  // namespace
@@ -185,6 +191,36 @@ TEST_CASE("thin parts of a pupil are drawn on the device") {
 
 // Processors have code of their own for rays in pairs, sums and tiles. What it draws, the code for GPUs has to draw,
 // too.
+TEST_CASE("the device keeps the pupils of lights that stand still, and draws the bits of a frame by itself") {
+  OnDevice keeping, searching;
+  if (!keeping.kept.device) return;
+  const LensState lens = lens_of("heliar", 7, 8.0), closed = lens_of("heliar", 7, 11.0);
+  const FrameSettings settings = settings_of(lens, 64, 36);
+  FrameSettings wide = settings, fringed = settings;
+  wide.frame.width = 70;
+  fringed.ringing.mode = RingingMode::Fresnel;
+  const Light light = kTwoLights.front(), other = kTwoLights.back();
+  const Light third{.direction = direction_from_angles(0.02, -0.09)};
+  Light bright = light;
+  bright.value = {5.0, 3.0, 2.0};
+  const auto check = [&](const LensState& of_lens, const Light& here, const FrameSettings& with, bool is_kept) {
+    static_cast<void>(frame_by(AdaptiveOptions{}, lens, {&third, 1}, settings, searching.cache));
+    const Flare exact = frame_by(AdaptiveOptions{}, of_lens, {&here, 1}, with, searching.cache);
+    const Flare got = frame_by(AdaptiveOptions{}, of_lens, {&here, 1}, with, keeping.cache);
+    CHECK(got.image.pixels == exact.image.pixels);
+    CHECK(has_searched(exact));
+    CHECK(has_searched(got) == !is_kept);
+  };
+  check(lens, light, settings, false);
+  check(lens, bright, settings, true);
+  check(lens, light, wide, true);
+  check(lens, other, settings, false);
+  check(lens, light, settings, false);
+  check(lens, light, fringed, false);
+  check(closed, light, settings, false);
+  test::check_no_messages();
+}
+
 TEST_CASE("a processor draws the same with the code for GPUs [slow]") {
   OnDevice own, as_gpu({.draws_as_gpu = true});
   if (!own.kept.device) return;
