@@ -8,7 +8,8 @@ layout(local_size_x = 256) in;
 #include "common.glsl"
 #include "merged.glsl"
 
-#define MOST_CELLS 1024u
+#define MOST_CELLS 1024.0
+#define MOST_CELLS_OF_SPOTS 64.0
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
 #define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
@@ -94,8 +95,8 @@ uvec2 cells_for(uint item, float allowed_by_root) {
   float allowed = allowed_by_root * cube_root(squared_error_of(item));
   float edges = side_for(state(item, STATE_EDGE_ERROR), allowed);
   float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_EDGE_PARTS));
-  // Cells smaller than a third of a pixel show nothing more.
-  cells = min(cells, min(3.0 * state(item, STATE_EXTENT), float(MOST_CELLS)));
+  // Cells smaller than a third of a pixel show nothing more, but the light of spots of few pixels is that of their folds.
+  cells = min(cells, clamp(3.0 * state(item, STATE_EXTENT), MOST_CELLS_OF_SPOTS, MOST_CELLS));
   cells = max(ceil(cells), float(p.fewest_cells));
   return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_EDGE_PARTS)));
 }

@@ -58,14 +58,14 @@ bool list_open(uvec4 v) {
   return true;
 }
 
-// Parts are no smaller than half a pixel. Edges have a point between their ends, but only smaller parts follow the folds
-// of open cells.
+// Parts at edges are no smaller than half a pixel, and those of folds than a pixel. Edges have a point between their
+// ends, but only smaller parts follow the folds of open cells.
 uint cut_parts(uvec4 v, bool is_open) {
   vec2 low = min(min(ray_of(v.x).xy, ray_of(v.y).xy), min(ray_of(v.z).xy, ray_of(v.w).xy));
   vec2 high = max(max(ray_of(v.x).xy, ray_of(v.y).xy), max(ray_of(v.z).xy, ray_of(v.w).xy));
-  uint halves = uint(min(2.0 * max(high.x - low.x, high.y - low.y) + 1.0, 1.0e4));
+  uint most = uint(min((is_open ? 1.0 : 2.0) * max(high.x - low.x, high.y - low.y) + 1.0, float(MOST_CUT_PARTS)));
   uint parts = floatBitsToUint(state(item, STATE_PARTS)) * (is_open ? MOST_CUT_PARTS / MOST_EDGE_PARTS : 1u);
-  return clamp(min(parts, halves), 1u, MOST_CUT_PARTS);
+  return clamp(parts, 1u, most);
 }
 
 void list_cut(uint parts) {

@@ -42,10 +42,11 @@ uint crossings_of_group = 0u;
 uint pattern = 0u;          // of the item
 uint sharp_crossings = 0u;  // where the iris is sharp
 
-// The values of the rays at the corners of the invocation's cell, and of the ray about which second differences are
-// taken: itself, left, right, above, below.
-vec4 corner_rays[4], near_rays[5];
-vec3 corner_stops[4], near_stops[5];
+// The values of the rays at the corners of the invocation's cell, and of the next ray in the row and in the column:
+// before the first corner, or behind the others where there is none.
+vec4 corner_rays[4], row_ray, column_ray;
+vec3 corner_stops[4], row_stop, column_stop;
+bool is_row_before, is_column_before;
 
 struct Cell {
   bool is_drawn;
@@ -81,12 +82,25 @@ vec2 dirt_point(uint k) { return rows[SEEN_ROW][k].zw; }
 
 void read_rays() {
   uvec4 v = rays_at_corners();
-  uint inside = ray_inside();
-  uint near[5] = uint[5](inside, inside - 1u, inside + 1u, inside - 16u, inside + 16u);
+  is_row_before = gl_LocalInvocationID.x > 0u;
+  is_column_before = gl_LocalInvocationID.y > 0u;
+  uint row = is_row_before ? v.x - 1u : v.x + 2u, column = is_column_before ? v.x - 16u : v.x + 32u;
   for (int j = 0; j < 4; ++j) corner_rays[j] = rows[RAY_ROW][v[j]];
   for (int j = 0; j < 4; ++j) corner_stops[j] = rows[STOP_ROW][v[j]].xyz;
-  for (int j = 0; j < 5; ++j) near_rays[j] = rows[RAY_ROW][near[j]];
-  for (int j = 0; j < 5; ++j) near_stops[j] = rows[STOP_ROW][near[j]].xyz;
+  row_ray = rows[RAY_ROW][row];
+  row_stop = rows[STOP_ROW][row].xyz;
+  column_ray = rows[RAY_ROW][column];
+  column_stop = rows[STOP_ROW][column].xyz;
+}
+
+// Second differences, from the values at a cell's first corner, at the next one and at the ray beside them.
+vec4 second_difference(vec4 first, vec4 second, vec4 beside, bool is_before) {
+  return is_before ? beside - 2.0 * first + second : first - 2.0 * second + beside;
+}
+vec4 ray_bend_of_row() { return second_difference(corner_rays[0], corner_rays[1], row_ray, is_row_before); }
+vec4 ray_bend_of_column() { return second_difference(corner_rays[0], corner_rays[3], column_ray, is_column_before); }
+vec2 stop_bend(vec3 second, vec3 beside, bool is_before) {
+  return second_difference(vec4(corner_stops[0], 0.0), vec4(second, 0.0), vec4(beside, 0.0), is_before).xy;
 }
 
 // As blocked(), at a corner.
@@ -135,10 +149,10 @@ Cell find_cell(float flux_a_transmission) {
   return cell;
 }
 
-bool has_neighbours_in_row() { return min(min(near_rays[0].z, near_rays[1].z), near_rays[2].z) >= 0.0; }
-bool has_neighbours_in_column() { return min(min(near_rays[0].z, near_rays[3].z), near_rays[4].z) >= 0.0; }
-vec2 bend_of_row() { return near_rays[1].xy - 2.0 * near_rays[0].xy + near_rays[2].xy; }
-vec2 bend_of_column() { return near_rays[3].xy - 2.0 * near_rays[0].xy + near_rays[4].xy; }
+bool has_neighbours_in_row() { return min(min(corner_rays[0].z, corner_rays[1].z), row_ray.z) >= 0.0; }
+bool has_neighbours_in_column() { return min(min(corner_rays[0].z, corner_rays[3].z), column_ray.z) >= 0.0; }
+vec2 bend_of_row() { return ray_bend_of_row().xy; }
+vec2 bend_of_column() { return ray_bend_of_column().xy; }
 
 // The squared distances below are means over the cell, of an edge that is drawn from the one that it stands for.
 // Straight sides of cells and parts, whose images bend.
@@ -172,15 +186,14 @@ float squared_sag() {
   float squared = squared_sag_of_sides();
   vec4 rim = vec4(corner_rays[0].w, corner_rays[1].w, corner_rays[2].w, corner_rays[3].w);
   if (has_edge(rim - 1.0))
-    squared += squared_edge_sag(rim, near_rays[1].w - 2.0 * near_rays[0].w + near_rays[2].w,
-                                near_rays[3].w - 2.0 * near_rays[0].w + near_rays[4].w);
+    squared += squared_edge_sag(rim, ray_bend_of_row().w, ray_bend_of_column().w);
   vec4 iris = vec4(corner_stops[0].z, corner_stops[1].z, corner_stops[2].z, corner_stops[3].z);
   if (has_edge(iris)) {
     // The iris itself is exact: only what moves its edge along its normal counts.
     vec2 a = corner_stops[0].xy, b = corner_stops[1].xy, c = corner_stops[2].xy, d = corner_stops[3].xy;
     vec2 normal = normalize(a + b + c + d + vec2(1e-20));
-    vec2 in_row = near_stops[1].xy - 2.0 * near_stops[0].xy + near_stops[2].xy;
-    vec2 in_column = near_stops[3].xy - 2.0 * near_stops[0].xy + near_stops[4].xy;
+    vec2 in_row = stop_bend(corner_stops[1], row_stop, is_row_before);
+    vec2 in_column = stop_bend(corner_stops[3], column_stop, is_column_before);
     squared += squared_edge_sag(vec4(dot(normal, a), dot(normal, b), dot(normal, c), dot(normal, d)),
                                 dot(normal, in_row), dot(normal, in_column));
   }
@@ -232,6 +245,13 @@ float squared_bend(uint k) {
   if (here == 0.0) return sum;
   float mixed = min(abs(mixed_change(here, beside, diagonal)), BOUND_LARGEST_DENSITY_CHANGE);
   return sum + SQUARED_OF_MIXED * mixed * mixed / 64.0;
+}
+
+// The part of squared_bend() that shows: pixels sum what is smaller than they are.
+#define LITTLE_SHOWN_PX 1.0  // chosen: small pictures are as exact as large ones
+float shown_part(float area_px) {
+  float squared = area_px * area_px;
+  return squared / (squared + LITTLE_SHOWN_PX * LITTLE_SHOWN_PX);
 }
 
 // The part of the cell's bounds that lies in the frame.
@@ -331,7 +351,7 @@ vec4 errors_of(Cell cell, float value, float inside_frame) {
   uint k = gl_LocalInvocationIndex;
   vec2 moved = corner_rays[0].xy - middle_place;
   float area = max(abs(cell.area_px), 1.0), moved_squared = dot(moved, moved);
-  float inside = area * cell.open * squared_bend(k);
+  float inside = area * cell.open * squared_bend(k) * shown_part(cell.area_px);
   float merged = cell.has_edge ? cell.length_px * min(moved_squared, sqrt(moved_squared)) : 0.0;
   if (pattern != 0u && cell.is_drawn)
     merged += area * (roughness_px(cell) * min(moved_squared, 1.0) + cell.open * pattern_difference(pattern));
