@@ -14,9 +14,12 @@ inline constexpr std::uint32_t kSearchLevelsKept = 6;
 // search_blocks(): the workgroups of a group.
 [[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks,
                                                     bool is_symmetric) {
-  constexpr std::uint32_t kScans = 2, kOuterScans = 2;
+  constexpr std::uint32_t kScans = 1, kOuterScans = 2;
   const auto blocks = [&](std::uint32_t a_side) { return a_side * (is_symmetric ? (a_side + 1) / 2 : a_side); };
-  return level == 0 ? blocks(window_blocks) + kScans : level == kOuterLevel ? kOuterScans : level == 1 ? blocks(2) : 1;
+  return level == 0                    ? blocks(window_blocks) + kScans
+         : level == kOuterLevel        ? kOuterScans
+         : level == 1 && !is_symmetric ? blocks(2)
+                                       : 1;
 }
 
 // A bit of the flags, besides those of stop_layout.h: FLAG_SYMMETRIC.

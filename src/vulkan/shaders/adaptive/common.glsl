@@ -121,7 +121,7 @@ vec3 state_gain(uint item, vec2 at) {
 
 #define LAST_LEVEL 3u  // of the search
 #define ALL_ITEMS_LEVEL 2u  // from which on it is at the wavelengths of all items, whose pupils may lie beside each other
-#define SCANS 2u  // workgroups that scan a group's meridian, at the first level
+#define SCANS 1u  // workgroups that scan a group's meridian, at the first level
 // A further level follows the first one: it scans the meridian at a group's first and last wavelengths if light passes at
 // no other. Its boxes and bounds are two, for each of them.
 #define OUTER_LEVEL 4u
@@ -146,7 +146,7 @@ vec4 bounds_along_frame(vec2 meridian, vec4 box) {
 
 // The workgroups by the sides of what is searched, which is the upper half of a box that is mirrored.
 uvec2 blocks_by_sides(uint level) {
-  uint a_side = searches_window(level) ? p.window_blocks : level == 1u ? 2u : 1u;
+  uint a_side = searches_window(level) ? p.window_blocks : level == 1u && (p.flags & FLAG_SYMMETRIC) == 0u ? 2u : 1u;
   return uvec2(a_side, is_mirrored(level) ? (a_side + 1u) / 2u : a_side);
 }
 uint search_blocks(uint level) {
