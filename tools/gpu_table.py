@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time frames on a device against the CPU: a table for docs/gpu.md, on any machine.
 
-    gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...] [--method NAME ...]
+    gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...] [--method NAME ...] [--moving]
 
 Each row is a lens and a method: the median time of a frame on the CPU and on the device, their ratio, the device's part
 of its frame, and the difference of the pictures in dB. A frame is timed after one of the same sequence has warmed the
-program: every run renders three frames, and the last is taken. CONTREJOUR_DEVICE chooses the device.
+program: every run renders three frames, and the last is taken. As both sides keep the pupils of a light that stands
+still, --moving moves it from frame to frame. CONTREJOUR_DEVICE chooses the device.
 """
 import argparse
 import json
@@ -18,6 +19,10 @@ import tempfile
 
 LENSES = ["heliar", "canon-70-200", "nikon-80-200"]
 METHODS = ["bundle", "tiled"]  # of the target; `adaptive` may be asked for
+MOVING_LIGHT = """[[light]]
+name = "lamp"
+at = { 1 = [0.28, 0.30], 3 = [0.31, 0.32] }
+"""
 
 
 def run(program, arguments):
@@ -30,8 +35,12 @@ def run(program, arguments):
 def last_frame(options, lens, method, device, folder):
     """The statistics of the last of three frames, and its file."""
     output = folder / f"{device}.####.exr"
-    lines = run(options.program, ["render", lens, "-o", str(output), "--frames", "1-3", "--json", "--method", method,
-                                  "--device", device, "--size", options.size, "--grid", str(options.grid),
+    lights = folder / "lights.toml"
+    lights.write_text(MOVING_LIGHT)
+    moving = ["--lights", str(lights)] if options.moving else []
+    lines = run(options.program, ["render", lens, *moving, "-o", str(output), "--frames", "1-3", "--json",
+                                  "--method", method, "--device", device, "--size", options.size,
+                                  "--grid", str(options.grid),
                                   "--wavelengths", str(options.wavelengths)]).splitlines()
     frames = [json.loads(line) for line in lines if '"statistics"' in line]
     return frames[-1]["statistics"], folder / f"{device}.0003.exr"
@@ -60,6 +69,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--lens", nargs="*", default=LENSES)
     parser.add_argument("--method", nargs="*", default=METHODS)
+    parser.add_argument("--moving", action="store_true")
     options = parser.parse_args()
     devices = json.loads(run(options.program, ["devices", "--json"]))
     usable = [f"{device['name']} ({device['driver']})" for device in devices if device["usable"]]
