@@ -28,10 +28,10 @@ struct AdaptiveCapacity {
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
-// All that the search for pupils reads, besides the paths: frames of which it is the same have the same pupils.
+// What the search for pupils reads, besides the paths: frames in which it is the same have the same pupils.
 struct SearchInput {
   std::vector<std::uint32_t> words;
-  std::shared_ptr<const DevicePatterns> patterns;  // whose extents the iris has
+  std::shared_ptr<const DevicePatterns> patterns;  // whose radii bound the light at the stop
   bool operator==(const SearchInput&) const = default;
 };
 
