@@ -117,38 +117,53 @@ uvec2 plane_word(uint k, ivec2 at) {
   return add_words(uvec2(plane_sums[k], plane_sums[k + 1u]), uvec2(plane_sums[of_quarter], plane_sums[of_quarter + 1u]));
 }
 
-// The planes at a pixel, exactly.
-uvec2 planes_at(uint channel, ivec2 at) {
+// What planes add to a pixel, exactly, and to the next one of its column.
+struct PlaneSums {
+  uvec2 here, by_row;
+};
+
+PlaneSums planes_at(uint channel, ivec2 at) {
   uint k = 6u * channel;
-  uvec2 by_x = times_words(plane_word(k + 2u, at), uint(at.x)), by_y = times_words(plane_word(k + 4u, at), uint(at.y));
-  return add_words(plane_word(k, at), add_words(by_x, by_y));
+  uvec2 by_row = plane_word(k + 4u, at);
+  uvec2 by_x = times_words(plane_word(k + 2u, at), uint(at.x)), by_y = times_words(by_row, uint(at.y));
+  return PlaneSums(add_words(plane_word(k, at), add_words(by_x, by_y)), by_row);
 }
 
-// Adds a pixel of a part of a tile to the tile's sums, which are exact; join_parts.comp turns them into pixels.
-void add_part(uint split, int row, ivec2 at) {
-  uint t = uint(TILE_SIDE * at.y + at.x), to = SPLIT_SUMS + TILE_WORDS * (split - 1u) + 6u * t;
-  for (uint c = 0u; c < 3u; ++c) {
-    uvec2 sum = add_words(to_fixed(coarse_sum[row][c] * fixed_units), to_fixed(fine_sum[row][c] * fixed_units));
-    sum = add_words(sum, uvec2(tile_sums[6u * t + 2u * c], tile_sums[6u * t + 2u * c + 1u]));
-    add_fixed(to + 2u * c, add_words(sum, planes_at(c, at)));
-  }
+// The pixel's sums of a channel, in fixed point: planes and small polygons.
+uvec2 small_sum(uint channel, ivec2 at, PlaneSums planes) {
+  uint word = 6u * uint(TILE_SIDE * at.y + at.x) + 2u * channel;
+  return add_words(uvec2(tile_sums[word], tile_sums[word + 1u]), planes.here);
 }
 
-void write_pixel(int row, ivec2 at) {
+// Writes a pixel, or adds that of a part of a tile to the tile's sums, which are exact; join_parts.comp turns them into
+// pixels.
+void finish_pixel(uint split, int row, ivec2 at, PlaneSums planes[3]) {
   ivec2 pixel = tile_low + at;
-  uint t = uint(TILE_SIDE * at.y + at.x), to = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
+  if (pixel.x >= p.width || pixel.y >= p.height) return;
+  uint to = 3u * (uint(pixel.y) * uint(p.width) + uint(pixel.x));
+  uint part = SPLIT_SUMS + TILE_WORDS * (split - 1u) + 6u * uint(TILE_SIDE * at.y + at.x);
   for (uint c = 0u; c < 3u; ++c) {
-    uvec2 rest = add_words(uvec2(tile_sums[6u * t + 2u * c], tile_sums[6u * t + 2u * c + 1u]), planes_at(c, at));
-    picture[to + c] = (coarse_sum[row][c] + fine_sum[row][c]) + from_fixed(rest.x, rest.y) / fixed_units;
+    uvec2 rest = small_sum(c, at, planes[c]);
+    if (split == 0u) {
+      picture[to + c] = (coarse_sum[row][c] + fine_sum[row][c]) + from_fixed(rest.x, rest.y) / fixed_units;
+    } else {
+      uvec2 sum = add_words(to_fixed(coarse_sum[row][c] * fixed_units), to_fixed(fine_sum[row][c] * fixed_units));
+      add_fixed(part + 2u * c, add_words(sum, rest));
+    }
   }
 }
 
-void finish_pixel(uint split, int row, ivec2 at) {
-  if (tile_low.x + at.x >= p.width || tile_low.y + at.y >= p.height) return;
-  if (split == 0u)
-    write_pixel(row, at);
-  else
-    add_part(split, row, at);
+// Finishes an invocation's pixels: one, or those of its column. Shared memory, which lavapipe reads slowly, is read once
+// for a column's planes.
+void finish_pixels(uint split, ivec2 at) {
+  PlaneSums planes[3];
+  for (uint c = 0u; c < 3u; ++c) planes[c] = planes_at(c, at);
+  finish_pixel(split, 0, at, planes);
+  if (!BY_COLUMN) return;
+  [[unroll]] for (int row = 1; row < ROWS; ++row) {
+    for (uint c = 0u; c < 3u; ++c) planes[c].here = add_words(planes[c].here, planes[c].by_row);
+    finish_pixel(split, row, at + ivec2(0, row), planes);
+  }
 }
 
 void main() {
@@ -170,7 +185,5 @@ void main() {
     for (; from < task.end; from += invocations) draw_some(from, task.end, at);
   }
   check_end(from, task.end);
-  finish_pixel(task.split, 0, at);
-  if (!BY_COLUMN) return;
-  [[unroll]] for (int row = 1; row < ROWS; ++row) finish_pixel(task.split, row, at + ivec2(0, row));
+  finish_pixels(task.split, at);
 }
