@@ -365,10 +365,10 @@ std::uint32_t AdaptiveFrame::flags() const {
   return bits | dirt_flags(job_.dirt.get()) | (job_.has_axial_symmetry ? kSymmetric : 0U);
 }
 
-// Dim ghosts, which many cells do not better, have fluxes that are off by per cents with 8 cells a side. Fringes need
-// more, as maps to them are linear in half a cell. Frames of many lights have fewer cells, which must fit into the
-// device's buffers.
-std::uint32_t AdaptiveFrame::fewest_cells() const {
+// The cells a side of an item of the mean flux: with 8, fluxes are off by per cents. Items with fringes have as many at
+// least, and need more, as maps to fringes are linear in half a cell. Frames of many lights have fewer, which must fit
+// into the device's buffers.
+std::uint32_t AdaptiveFrame::usual_cells() const {
   constexpr std::uint32_t kFringed = 16, kUsual = 12, kCoarse = 8;
   constexpr std::uint64_t kManyItems = 4096;  // several lights through a long zoom
   const std::uint64_t items = job_.items.size();
@@ -394,7 +394,7 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.flags = flags();
   p.picture = picture_number(job_.patterns.get());
   p.small_px = small_px();
-  p.fewest_cells = fewest_cells();
+  p.usual_cells = usual_cells();
   p.window_blocks = job_.has_axial_symmetry ? 2 : 6;
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
   p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);

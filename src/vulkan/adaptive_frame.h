@@ -83,7 +83,7 @@ class AdaptiveFrame {
   [[nodiscard]] std::uint32_t flags() const;
   // Parameters of dispatches.
   [[nodiscard]] std::int32_t small_px() const;
-  [[nodiscard]] std::uint32_t fewest_cells() const;
+  [[nodiscard]] std::uint32_t usual_cells() const;
   [[nodiscard]] std::uint32_t list_part() const;  // polygons of a task
   [[nodiscard]] bool has_picture() const { return job_.patterns && job_.patterns->picture != DevicePatterns::kNone; }
   [[nodiscard]] bool has_occluders() const { return job_.dirt || has_picture(); }

@@ -35,7 +35,7 @@ struct AdaptiveParameters {
   std::uint32_t picture = 0;  // its number from 1 on; 0: the iris is none
   std::int32_t small_px = 0;
   float merge_error = 0;
-  std::uint32_t fewest_cells = 0;
+  std::uint32_t usual_cells = 0;
   std::uint32_t window_blocks = 0;
 };
 

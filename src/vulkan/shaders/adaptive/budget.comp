@@ -10,6 +10,8 @@ layout(local_size_x = 256) in;
 
 #define MOST_CELLS 1024.0
 #define MOST_CELLS_OF_SPOTS 64.0
+#define LEAST_CELLS 7.0  // 64 rays
+#define MOST_FOR_FLUX 24.0
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
 #define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
@@ -70,15 +72,26 @@ float sum_of(float number) {
   return sum;
 }
 
-// The light of all items, as if it fell on one pixel: the peak where all of it is in spots so small that the histogram
-// counts nothing.
-float light_in_one_pixel() {
+// An item's light within the frame.
+float light_of(uint item) {
+  vec3 gain = abs(item_gain(item));
+  return state(item, STATE_FLUX) * max(max(gain.x, gain.y), gain.z);
+}
+
+// The light of all items. As if it fell on one pixel, it is the peak where all of it is in spots so small that the
+// histogram counts nothing.
+float light_of_all() {
   float light = 0.0;
-  for (uint item = gl_LocalInvocationIndex; item < p.item_count; item += 256u) {
-    vec3 gain = abs(item_gain(item));
-    light += state(item, STATE_FLUX) * max(max(gain.x, gain.y), gain.z);
-  }
+  for (uint item = gl_LocalInvocationIndex; item < p.item_count; item += 256u) light += light_of(item);
   return sum_of(light);
+}
+
+// The cells a side with which the frame has the right flux, though a ghost may be too dim to need them. An item of n
+// cells is off by about 1 / n^2 of its flux and costs n^2: the sum of the costs is smallest, for a given sum of errors,
+// where n^4 is in proportion to the flux.
+float cells_for_flux(float light, float all_light) {
+  float typical = float(p.usual_cells) * sqrt(sqrt(float(p.item_count) * light / max(all_light, 1e-37)));
+  return clamp(ceil(typical), LEAST_CELLS, MOST_FOR_FLUX);
 }
 
 float cube_root(float x) { return x > 0.0 ? pow(x, 1.0 / 3.0) : 0.0; }
@@ -88,8 +101,8 @@ float side_for(float error, float allowed) {
   return float(COARSE_CELLS) * sqrt(sqrt(2.0 * error / max(allowed, 1e-37)));
 }
 
-// The cells a side, and the parts a side of a cell at an edge: edges may be finer than the grid.
-uvec2 cells_for(uint item, float allowed_by_root) {
+// The cells a side, and the parts a side of a cell at an edge: edges may be finer than the grid. least: of the cells.
+uvec2 cells_for(uint item, float allowed_by_root, float least) {
   if (!(state(item, STATE_FLUX) > 0.0)) return uvec2(0u);
   if (!(allowed_by_root > 0.0)) return uvec2(COARSE_CELLS, 1u);
   float allowed = allowed_by_root * cube_root(squared_error_of(item));
@@ -97,7 +110,8 @@ uvec2 cells_for(uint item, float allowed_by_root) {
   float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_EDGE_PARTS));
   // Cells smaller than a third of a pixel show nothing more, but the light of spots of few pixels is that of their folds.
   cells = min(cells, clamp(3.0 * state(item, STATE_EXTENT), MOST_CELLS_OF_SPOTS, MOST_CELLS));
-  cells = max(ceil(cells), float(p.fewest_cells));
+  if (item_pattern(item) != 0u) least = max(least, float(p.usual_cells));
+  cells = max(ceil(cells), least);
   return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_EDGE_PARTS)));
 }
 
@@ -111,14 +125,17 @@ void set_gains(uint item, vec3 gain, mat2x3 slopes) {
 }
 
 // Draws items by the middle one of their group where that is within the error and keeps the colours.
-void merge(uint group, float allowed_by_root, float allowed_sharp) {
+void merge(uint group, float allowed_by_root, float allowed_sharp, float all_light) {
   uint first = group_word(group, 0u), count = group_word(group, 1u), middle = group_word(group, 2u);
+  float light = 0.0;
+  for (uint item = first; item < first + count; ++item) light += light_of(item);
   vec3 gain = item_gain(middle);
   mat2x3 slopes = item_gain_slopes(middle);
   vec4 box = final_box(group);
   for (uint item = first; item < first + count; ++item) {
     uint word = STATE_WORDS * item;
-    uvec2 cells_and_parts = cells_for(item, allowed_by_root);
+    float least = cells_for_flux(item == middle ? light : light_of(item), all_light);
+    uvec2 cells_and_parts = cells_for(item, allowed_by_root, least);
     uint cells = cells_and_parts.x;
     float allowed = MERGED_SHARE * allowed_by_root * cube_root(squared_error_of(item));
     if (item != middle && cells > 0u && state(middle, STATE_FLUX) > 0.0 && state(item, STATE_MERGED_ERROR) <= allowed &&
@@ -170,14 +187,14 @@ void main() {
   uint t = gl_LocalInvocationIndex;
   if (t == 0u) faintest = 0u;
   barrier();
-  float found_peak = find_peak(), whole_light = light_in_one_pixel();
-  float peak = max(found_peak > 0.0 ? found_peak : whole_light, p.least_peak);
+  float found_peak = find_peak(), all_light = light_of_all();
+  float peak = max(found_peak > 0.0 ? found_peak : all_light, p.least_peak);
   float roots = 0.0;
   for (uint item = t; item < p.item_count; item += 256u) roots += cube_root(squared_error_of(item));
   float all_roots = sum_of(roots);
   float allowed_by_root = all_roots > 0.0 ? p.budget * peak * peak / all_roots : 0.0;
   float allowed_sharp = SHARP_SHARE * p.budget * peak * peak / float(p.item_count);
-  for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root, allowed_sharp);
+  for (uint group = t; group < p.group_count; group += 256u) merge(group, allowed_by_root, allowed_sharp, all_light);
   memoryBarrierBuffer();
   barrier();
   uint blocks = number_blocks();

@@ -33,7 +33,7 @@ layout(push_constant) uniform Parameters {
   uint picture;         // as the iris: its pattern's number, of which the next one is its distances; 0: none
   int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
   float merge_error;    // of pixels, in peaks, that a plane over several cells may make
-  uint fewest_cells;    // a side of an item
+  uint usual_cells;     // a side of an item of the mean flux; of one with fringes, at least
   uint window_blocks;   // a side, of 16 x 16 rays, in which the first level searches the window for pupils
 }
 p;
