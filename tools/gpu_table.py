@@ -69,7 +69,7 @@ def main():
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--lens", nargs="*", default=LENSES)
     parser.add_argument("--method", nargs="*", default=METHODS)
-    parser.add_argument("--moving", action="store_true")
+    parser.add_argument("--moving", action="store_true", help="a light that moves from frame to frame")
     options = parser.parse_args()
     devices = json.loads(run(options.program, ["devices", "--json"]))
     usable = [f"{device['name']} ({device['driver']})" for device in devices if device["usable"]]

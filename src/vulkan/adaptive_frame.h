@@ -28,7 +28,7 @@ struct AdaptiveCapacity {
   std::uint64_t tile_entries = std::uint64_t{1} << 21U;
 };
 
-// What the search for pupils reads, besides the paths: frames in which it is the same have the same pupils.
+// The numbers that the search for pupils reads, besides the paths. Frames with equal numbers have the same pupils.
 struct SearchInput {
   std::vector<std::uint32_t> words;
   std::shared_ptr<const DevicePatterns> patterns;  // whose radii bound the light at the stop

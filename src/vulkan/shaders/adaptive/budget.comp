@@ -110,7 +110,7 @@ uvec2 cells_for(uint item, float allowed_by_root, float least) {
   float cells = max(side_for(state(item, STATE_ERROR), allowed), edges / float(MOST_EDGE_PARTS));
   // Cells smaller than a third of a pixel show nothing more, but the light of spots of few pixels is that of their folds.
   cells = min(cells, clamp(3.0 * state(item, STATE_EXTENT), MOST_CELLS_OF_SPOTS, MOST_CELLS));
-  // More cells would have triangles below a pixel, whose means of fringes are less exact than those over pixels.
+  // Cells for the flux made fringes worse (docs/gpu.md); the cause is not known.
   if (item_pattern(item) != 0u) least = float(p.usual_cells);
   cells = max(ceil(cells), least);
   return uvec2(cells, clamp(ceil(edges / cells), 1.0, float(MOST_EDGE_PARTS)));

@@ -117,7 +117,7 @@ uvec2 plane_word(uint k, ivec2 at) {
   return add_words(uvec2(plane_sums[k], plane_sums[k + 1u]), uvec2(plane_sums[of_quarter], plane_sums[of_quarter + 1u]));
 }
 
-// What planes add to a pixel, exactly, and to the next one of its column.
+// The sum of all planes at a pixel, exactly, and how much it grows to the next pixel of the column.
 struct PlaneSums {
   uvec2 here, by_row;
 };
