@@ -5,13 +5,16 @@
     gpu_table.py PROGRAM [--size WxH] [--grid N] [--runs N] [--lens NAME ...] [--method NAME ...] [--moving]
 
 Each row is a lens and a method: the median time of a frame on the CPU and on the device, their ratio, the device's part
-of its frame, and the difference of the pictures in dB. A frame is timed after one of the same sequence has warmed the
+of its frame, and the difference of the pictures in dB; then the rays and polygons of both, the invocations of the
+device's shaders (counted on processors acting as GPUs only), and the megabytes that it received and sent. A lens may
+have options: --lens "nikon-80-200 --focal 140 -f 8". A frame is timed after one of the same sequence has warmed the
 program: every run renders three frames, and the last is taken. As both sides keep the pupils of a light that stands
 still, --moving moves it from frame to frame. CONTREJOUR_DEVICE chooses the device.
 """
 import argparse
 import json
 import pathlib
+import shlex
 import statistics
 import subprocess
 import sys
@@ -38,7 +41,7 @@ def last_frame(options, lens, method, device, folder):
     lights = folder / "lights.toml"
     lights.write_text(MOVING_LIGHT)
     moving = ["--lights", str(lights)] if options.moving else []
-    lines = run(options.program, ["render", lens, *moving, "-o", str(output), "--frames", "1-3", "--json",
+    lines = run(options.program, ["render", *shlex.split(lens), *moving, "-o", str(output), "--frames", "1-3", "--json",
                                   "--method", method, "--device", device, "--size", options.size,
                                   "--grid", str(options.grid),
                                   "--wavelengths", str(options.wavelengths)]).splitlines()
@@ -56,8 +59,11 @@ def row(options, lens, method, folder):
     cpu, gpu = (statistics.median(times[device]) for device in ("cpu", "vulkan"))
     drawn = dict(latest["vulkan"]["time_ms"]).get("device", float("nan"))
     difference = json.loads(run(options.program, ["compare", str(files["cpu"]), str(files["vulkan"]), "--json"]))
+    counts = [f"{latest['cpu'][name]}, {latest['vulkan'][name]}" for name in ("rays", "primitives")]
+    device = latest["vulkan"]
     return (f"| {lens} | {method} | {cpu:.1f} | {gpu:.1f} | {gpu / cpu:.2f} | {drawn:.1f} | "
-            f"{difference['psnr_db']:.1f} | {latest['vulkan']['rays']} | {latest['vulkan']['primitives']} |")
+            f"{difference['psnr_db']:.1f} | {counts[0]} | {counts[1]} | {device['device_invocations'] / 1e6:.2f} | "
+            f"{device['device_bytes'] / 1e6:.2f} |")
 
 
 def main():
@@ -67,15 +73,16 @@ def main():
     parser.add_argument("--grid", type=int, default=256)
     parser.add_argument("--wavelengths", type=int, default=3)
     parser.add_argument("--runs", type=int, default=3)
-    parser.add_argument("--lens", nargs="*", default=LENSES)
+    parser.add_argument("--lens", nargs="*", default=LENSES, help="names, each with options of render")
     parser.add_argument("--method", nargs="*", default=METHODS)
     parser.add_argument("--moving", action="store_true", help="a light that moves from frame to frame")
     options = parser.parse_args()
     devices = json.loads(run(options.program, ["devices", "--json"]))
     usable = [f"{device['name']} ({device['driver']})" for device in devices if device["usable"]]
     print(f"{options.size}, {options.grid} rays a side, {options.wavelengths} wavelengths; devices: {', '.join(usable)}\n")
-    print("| Lens | Method | CPU, ms | Device, ms | Ratio | of it drawing, ms | dB | Rays | Polygons |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| Lens | Method | CPU, ms | Device, ms | Ratio | of it drawing, ms | dB | Rays, CPU and device | "
+          "Polygons, CPU and device | Invocations, 1e6 | Transfers, MB |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for lens in options.lens:
             for method in options.method:

@@ -32,7 +32,9 @@ Json stats_json(const RenderStatistics& statistics) {
           {"ghosts_rendered", statistics.ghosts_rendered},
           {"ghosts_skipped_flux", skipped},
           {"traced_flux", statistics.traced_flux ? Json(*statistics.traced_flux) : Json()},
-          {"peak_memory_bytes", statistics.peak_memory_bytes}};
+          {"peak_memory_bytes", statistics.peak_memory_bytes},
+          {"device_invocations", statistics.device_invocations},
+          {"device_bytes", statistics.device_bytes}};
 }
 
 }  // namespace contrejour::cli

@@ -20,6 +20,7 @@ enum Counter : std::uint32_t {
   kCutCells,
   kRayBlocks,
   kPeakBits,
+  kSearchedBlocks,
   kCounters,
 };
 

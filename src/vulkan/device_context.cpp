@@ -28,6 +28,8 @@ Residence residence_of(std::size_t slot) {
 constexpr double kNanoseconds = 1e9;  // a second
 constexpr std::uint64_t kInvocationsAGroup = 64;
 constexpr std::uint32_t kMostStages = 256;
+constexpr std::size_t kMostIndirect = 256;  // dispatches of a submission that are counted
+constexpr std::uint64_t kGroupCountBytes = 3 * sizeof(std::uint32_t);
 
 }  // namespace
 
@@ -39,6 +41,7 @@ DeviceContext::DeviceContext(std::shared_ptr<OpenedDevice> opened, const DeviceI
   commands_ = vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1});
   fence_ = device_.createFence({});
   if (opened_->tick_ns() > 0.0) clock_ = device_.createQueryPool({{}, vk::QueryType::eTimestamp, kMostStages + 1});
+  if (counts_invocations_) indirect_groups_.need(device_, opened_->memory(), kGroupCountBytes * kMostIndirect);
   for (std::size_t k = 0; k < kSlots; ++k) buffers_.emplace_back(residence_of(k));
   opened_->add_context();
 }
@@ -115,6 +118,7 @@ void DeviceContext::begin() {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, opened_->pipeline_layout(), 0, *sets_.front(), {});
   set_path({});
   stages_.clear();
+  indirect_group_sizes_.clear();
   if (*clock_ == vk::QueryPool{}) return;
   commands.resetQueryPool(*clock_, 0, kMostStages + 1);
   commands.writeTimestamp(vk::PipelineStageFlagBits::eTopOfPipe, *clock_, 0);
@@ -141,6 +145,19 @@ void DeviceContext::read_clock() {
   if (result != vk::Result::eSuccess) return;
   for (std::size_t k = 0; k < stages_.size(); ++k)
     stages_ms_.emplace_back(stages_[k], static_cast<double>(ticks[k + 1] - ticks[k]) * opened_->tick_ns() * 1e-6);
+}
+
+void DeviceContext::copy_group_counts(Shader shader, std::uint64_t byte) {
+  if (indirect_group_sizes_.size() == kMostIndirect) return;
+  commands_.front().copyBuffer(at(Slot::Indirect).handle(), indirect_groups_.handle(),
+                               vk::BufferCopy(byte, kGroupCountBytes * indirect_group_sizes_.size(), kGroupCountBytes));
+  indirect_group_sizes_.push_back(opened_->group_size_of(shader));
+}
+
+void DeviceContext::add_indirect_invocations() {
+  const auto* const counts = indirect_groups_.read<std::array<std::uint32_t, 3>>();
+  for (std::size_t k = 0; k < indirect_group_sizes_.size(); ++k)
+    invocations_ += std::uint64_t{indirect_group_sizes_[k]} * counts[k][0] * counts[k][1] * counts[k][2];
 }
 
 void DeviceContext::clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes) {
@@ -177,6 +194,7 @@ void DeviceContext::finish(const QueueSemaphores& semaphores) {
   if (device_.waitForFences(*fence_, VK_TRUE, wait_ns) == vk::Result::eTimeout)
     throw Hang(fmt::format("the device gave no answer for {} s", longest_s));
   read_clock();
+  add_indirect_invocations();
 }
 
 // A binary semaphore has no value, and its number is ignored.
@@ -202,10 +220,11 @@ void DeviceContext::keep(Slot slot, std::uint64_t bytes, std::uint64_t to_byte) 
 
 void DeviceContext::fetch(Slot slot, std::uint64_t bytes, std::uint64_t to_byte) {
   commands_.front().copyBuffer(at(slot).handle(), fetched_.handle(), vk::BufferCopy(0, to_byte, bytes));
+  fetched_bytes_ += bytes;
 }
 
 std::uint64_t DeviceContext::memory_bytes() const {
-  std::uint64_t sum = fetched_.bytes() + kept_rows_.bytes() + sent_rows_.bytes();
+  std::uint64_t sum = fetched_.bytes() + kept_rows_.bytes() + sent_rows_.bytes() + indirect_groups_.bytes();
   for (const Buffer& buffer : buffers_) sum += buffer.bytes();
   return sum;
 }

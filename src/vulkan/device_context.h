@@ -76,7 +76,8 @@ class DeviceContext {
     if (groups.x == 0 || groups.y == 0) return;
     push(program, parameters);
     commands_.front().dispatch(groups.x, groups.y, 1);
-    invocations_ += kGroup * groups.x * groups.y;
+    if (counts_invocations_)
+      invocations_ += opened_->group_size_of(program.shader) * std::uint64_t{groups.x} * groups.y;
   }
   // The path of the next dispatches that trace a grid: the first bytes of kPathSlots.
   void set_path(const std::array<std::uint32_t, kPathSlots.size()>& first_bytes);
@@ -85,6 +86,7 @@ class DeviceContext {
   void dispatch_indirect(Program program, const P& parameters, std::uint64_t byte) {
     push(program, parameters);
     commands_.front().dispatchIndirect(at(Slot::Indirect).handle(), byte);
+    if (counts_invocations_) copy_group_counts(program.shader, byte);
   }
   void clear(Slot slot, std::uint64_t first_byte, std::uint64_t bytes);
   void barrier();  // what follows sees what came before
@@ -106,17 +108,17 @@ class DeviceContext {
   void end_stage(std::string name);
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages_ms() const { return stages_ms_; }
 
-  [[nodiscard]] std::uint64_t submissions() const { return submissions_; }
-  [[nodiscard]] std::uint64_t invocations() const { return invocations_; }
+  [[nodiscard]] std::uint64_t invocations() const { return invocations_; }  // of shaders; 0: they are not counted
+  [[nodiscard]] std::uint64_t fetched_bytes() const { return fetched_bytes_; }
   [[nodiscard]] std::uint64_t memory_bytes() const;
 
  private:
-  static constexpr std::uint64_t kGroup = 64;  // invocations of most shaders' workgroups
-
   void make_sets();
   void describe_buffers();
   void describe_texels();
   void read_clock();
+  void copy_group_counts(Shader shader, std::uint64_t byte);
+  void add_indirect_invocations();
   void submit(const QueueSemaphores& semaphores);
   template <class P>
   void push(Program program, const P& parameters) {
@@ -139,11 +141,15 @@ class DeviceContext {
   vk::raii::QueryPool clock_ = nullptr;  // null: the queue has none
   std::vector<std::string> stages_;  // of the submission that is being made
   std::vector<std::pair<std::string, double>> stages_ms_;
+  // On processors only, as the copies of group counts may take time.
+  bool counts_invocations_ = info_.kind == "processor";
+  std::vector<std::uint32_t> indirect_group_sizes_;  // of the submission that is being made
+  Buffer indirect_groups_{Residence::Download};
   std::vector<Buffer> buffers_;  // by Slot
   std::vector<vk::raii::BufferView> views_;  // by kTexelSlots
   Buffer fetched_{Residence::Download}, kept_rows_{Residence::Device}, sent_rows_{Residence::Upload};
   bool described_ = false;
-  std::uint64_t submissions_ = 0, invocations_ = 0;
+  std::uint64_t submissions_ = 0, invocations_ = 0, fetched_bytes_ = 0;
 };
 
 }  // namespace contrejour::inline internal::vulkan

@@ -194,9 +194,8 @@ void GridFrame::prepare(const Frame& band, std::uint64_t batch_rays) {
   upload_paths(device_, data);
   device_.upload(Slot::Bounds, bounds);
   if (is_dimmed()) upload_stops();
-  work_.uploaded_bytes +=
-      4 * (data.floats().size() + data.integers().size() + data.table_pairs().size() + bounds.size()) +
-      8 * data.doubles().size();
+  work_.bytes += 4 * (data.floats().size() + data.integers().size() + data.table_pairs().size() + bounds.size()) +
+                 8 * data.doubles().size();
 }
 
 // Uploads what dims the grids' light at the stop and on the front, grid by grid.
@@ -219,8 +218,7 @@ void GridFrame::upload_stops() {
                        .front_gap_mm = narrow(grid.front_gap_mm)});
   }
   device_.upload(Slot::Items, records);
-  work_.uploaded_bytes +=
-      sizeof(GridRecord) * records.size() + tables_.upload(device_, info_, job_.patterns, job_.dirt);
+  work_.bytes += sizeof(GridRecord) * records.size() + tables_.upload(device_, info_, job_.patterns, job_.dirt);
 }
 
 // Grids with a stop pattern are traced through a circle as large as the pattern.

@@ -77,6 +77,22 @@ vk::raii::Pipeline OpenedDevice::compiled(Program program) const {
   return device().createComputePipeline(cache_, vk::ComputePipelineCreateInfo({}, stage, *pipeline_layout_));
 }
 
+std::uint32_t OpenedDevice::group_size_of(Shader shader) const {
+  switch (shader) {
+    case Shader::AdaptiveRaster:
+    case Shader::AdaptiveRasterPatterned:
+    case Shader::AdaptiveRasterOccluded: return draws_as_processor_ ? kTileGroupOfProcessor : kTileGroup;
+    case Shader::AdaptiveSearch:
+    case Shader::AdaptiveMeasure:
+    case Shader::AdaptiveMeasureOccluded:
+    case Shader::AdaptiveBudget:
+    case Shader::AdaptiveJoinParts: return 256;
+    case Shader::AdaptiveCutSize:
+    case Shader::ListSizes: return 1;
+    default: return 64;
+  }
+}
+
 vk::Pipeline OpenedDevice::pipeline_of(Program program) {
   const std::scoped_lock lock(pipelines_mutex_);
   vk::raii::Pipeline& pipeline = pipelines_[number_of(program)];

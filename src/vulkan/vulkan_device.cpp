@@ -84,7 +84,6 @@ class VulkanDevice final : public FrameDevice {
       DeviceContext& device = image == nullptr && context_ ? *context_ : context();
       if (image != nullptr) picture_ = sent(device, *image);
       PictureWriter(device, info_, options_.most_rows, target).write(picture_);
-      work.submissions = 1;
       work.add_stages(device.stages_ms());
     });
     if (!done) return tl::unexpected(done.error());
@@ -137,7 +136,7 @@ class VulkanDevice final : public FrameDevice {
   [[nodiscard]] DeviceWork with(const StarburstStage& starbursts, const Job& job, const DrawnFrame& frame,
                                 DeviceWork work) {
     work.starbursts = starbursts.added();
-    work.uploaded_bytes += starbursts.uploaded_bytes();
+    work.bytes += starbursts.uploaded_bytes();
     work.is_kept = job.use == PictureUse::Kept;
     picture_ = {job.frame.width, job.frame.height, frame.keeps_bands() ? &context_->kept_rows() : nullptr};
     return work;
@@ -198,14 +197,14 @@ class VulkanDevice final : public FrameDevice {
     DeviceWork work;
     const auto done = guarded([&] {
       DeviceContext& device = this->context();
-      const std::uint64_t submissions = device.submissions(), invocations = device.invocations();
+      const std::uint64_t invocations = device.invocations(), fetched_bytes = device.fetched_bytes();
       if (is_dark) {
         std::ranges::fill(image.pixels, 0.0F);
         return;
       }
       work = draw(device);
-      work.submissions = device.submissions() - submissions;
       work.invocations = device.invocations() - invocations;
+      work.bytes += device.fetched_bytes() - fetched_bytes;
     });
     if (!done) return tl::unexpected(done.error());
     if (context.cancelled()) return failure(ErrorCode::Cancelled, "cancelled");

@@ -238,6 +238,7 @@ TEST_CASE("a processor draws the same with the code for GPUs [slow]") {
   settings.ringing.mode = RingingMode::Fresnel;
   check_same(AdaptiveOptions{}, heliar, settings);
   FrameSettings of_anamorphic = settings_of(anamorphic, 32, 24);
+  of_anamorphic.wavelengths = 3;
   of_anamorphic.selection = SelectBrightest{4};
   check_same(AdaptiveOptions{}, anamorphic, of_anamorphic);
   test::check_no_messages();

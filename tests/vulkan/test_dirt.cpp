@@ -35,7 +35,7 @@ FrameSettings dirt_settings(const LensState& lens, int width = 128, int height =
 
 }  // namespace
 
-TEST_CASE("adaptive draws shadows of dirt in the stop and on the front on the device") {
+TEST_CASE("adaptive draws shadows of dirt in the stop and on the front on the device [slow]") {
   OnDevice device;
   if (!device.kept.device) return;
   for (const DirtPlane plane : {DirtPlane::Stop, DirtPlane::Front}) {

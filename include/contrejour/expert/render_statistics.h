@@ -27,6 +27,11 @@ struct RenderStatistics {
   std::optional<double> traced_flux;
   std::uint64_t peak_memory_bytes = 0;
 
+  // Only of frames that a device draws: the invocations of its shaders, which are counted on processors acting as GPUs
+  // (0 on others), and the bytes between host and device in both directions.
+  std::uint64_t device_invocations = 0;
+  std::uint64_t device_bytes = 0;
+
   // Only for `tiled`, where `primitives` counts primitives before merging.
   std::uint64_t primitives_merged = 0;  // their number after merging
   std::uint64_t tile_indices = 0;  // entries of all dense tiles' lists

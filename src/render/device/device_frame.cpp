@@ -47,6 +47,8 @@ Result<DrawnFlare> draw_layers(FrameDevice& device, DeviceTarget target, const s
   stats.device = device.info().name;
   stats.primitives = work.primitives;
   if (stats.rays == 0) stats.rays = work.rays;
+  stats.device_invocations = work.invocations;
+  stats.device_bytes = work.bytes;
   stats.ghosts_rendered = static_cast<int>(plan.ghosts.size());
   stats.ghosts_skipped_flux = plan.skipped_flux;
   stats.time_ms = {{"search", target.search_ms}, {"device", work.ms}};

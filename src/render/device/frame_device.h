@@ -153,7 +153,9 @@ struct AdaptiveJob {
 
 // The work of a device, and what it took.
 struct DeviceWork {
-  std::uint64_t rays = 0, primitives = 0, invocations = 0, submissions = 0, uploaded_bytes = 0;
+  std::uint64_t rays = 0, primitives = 0;
+  std::uint64_t invocations = 0;  // of shaders; counted on processors only
+  std::uint64_t bytes = 0;  // uploaded and read
   // The job's starbursts that were added: all or none, as of a frame without ghosts, or if their patterns do not fit.
   std::uint64_t starbursts = 0;
   bool is_kept = false;  // the picture is on the device, and not in the image
@@ -164,8 +166,7 @@ struct DeviceWork {
     rays += other.rays;
     primitives += other.primitives;
     invocations += other.invocations;
-    submissions += other.submissions;
-    uploaded_bytes += other.uploaded_bytes;
+    bytes += other.bytes;
     starbursts += other.starbursts;
     is_kept = is_kept || other.is_kept;
     ms += other.ms;

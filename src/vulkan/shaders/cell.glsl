@@ -50,10 +50,18 @@ bool is_convex(vec2 a, vec2 b, vec2 c, vec2 d, float orientation) {
          cross2(d - c, a - c) * orientation > 0.0 && cross2(a - d, b - d) * orientation > 0.0;
 }
 
-// The plane whose differences along both diagonals are those of the vertices' irradiances, relative to their mean.
+// The centroid of a quadrilateral that is convex: the mean of a plane over it is the plane's value there.
+vec2 centroid_of(vec2 a, vec2 b, vec2 c, vec2 d) {
+  float first = cross2(b - a, c - a), second = cross2(c - a, d - a);
+  return a + (c - a + ((b - a) * first + (d - a) * second) / (first + second)) / 3.0;
+}
+
+// The plane whose differences along both diagonals are those of the irradiances at the corners, relative to their mean.
+vec2 gradient_along(vec2 first_diagonal, vec2 second_diagonal, vec4 e) {
+  float mean = 0.25 * (e.x + e.y + e.z + e.w), first = (e.z - e.x) / mean, second = (e.w - e.y) / mean;
+  vec2 d = first_diagonal, f = second_diagonal;
+  return vec2(first * f.y - second * d.y, second * d.x - first * f.x) / cross2(d, f);
+}
 vec2 gradient_of(uvec4 v, vec4 e) {
-  vec2 d = ray_of(v.z).xy - ray_of(v.x).xy, f = ray_of(v.w).xy - ray_of(v.y).xy;
-  float mean = 0.25 * (e.x + e.y + e.z + e.w);
-  float along_d = (e.z - e.x) / mean, along_f = (e.w - e.y) / mean;
-  return vec2(along_d * f.y - along_f * d.y, along_f * d.x - along_d * f.x) / cross2(d, f);
+  return gradient_along(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy, e);
 }

@@ -14,6 +14,7 @@
 #define COUNT_OPEN 10        // `tiled`: primitives that nothing cuts
 #define COUNT_BLOCKS 10      // `adaptive`: of 64 rays
 #define COUNT_PEAK 11        // `adaptive`: bits of a float, the peak that errors are relative to
+#define COUNT_SEARCHED 12    // `adaptive`: blocks of 256 rays for pupils and measures
 #define OVERFLOW_RAYS 1u
 #define OVERFLOW_POLYGONS 2u
 #define OVERFLOW_CUT 4u

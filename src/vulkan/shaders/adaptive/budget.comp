@@ -10,7 +10,7 @@ layout(local_size_x = 256) in;
 
 #define MOST_CELLS 1024.0
 #define MOST_CELLS_OF_SPOTS 64.0
-#define LEAST_CELLS 7.0  // 64 rays
+#define LEAST_CELLS 3.0
 #define MOST_FOR_FLUX 24.0
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns

@@ -54,7 +54,7 @@ bool list_open(uvec4 v) {
   if (!all(greaterThan(e, vec4(0.0))) || !is_convex(a, b, c, d, area)) return false;
   vec2 gradient = abs(area) >= SHADED_CELL_PX ? gradient_of(v, e) : vec2(0.0);
   float value = flux / abs(area);
-  list_quad(a, b, c, d, Density((a + b + c + d) * 0.25, value, gradient * value));
+  list_quad(a, b, c, d, Density(centroid_of(a, b, c, d), value, gradient * value));
   return true;
 }
 

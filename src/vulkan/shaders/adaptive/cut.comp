@@ -158,23 +158,23 @@ bool set_pattern_map() {
 void find_occluders() { is_dimmed = pattern != 0u; }
 #endif
 
-// Lists what clips have left of the part, in pixels. low, high: its bounds; level: of its density.
-void list_part(float flux, float fraction, float level, vec2 gradient, vec2 low, vec2 high) {
+// Lists what clips have left of the part: its flux, its density and its bounds in pixels.
+void list_part(float flux, Density density, vec2 low, vec2 high) {
   bool is_point = floor(low) == floor(high);
   vec2 from = low, to = low;
   // The corners are compared in pairs only if the polygon is thin for its bounds.
   if (area_px < SLIVER * dot(high - low, high - low)) farthest_corners(from, to);
   bool is_line = area_px < SLIVER * dot(to - from, to - from);
+  float dimmed = 1.0;
 #ifdef OCCLUDERS
-  if (is_dimmed) flux *= set_occluders(is_point, is_line);
+  if (is_dimmed) dimmed = set_occluders(is_point, is_line);
 #else
-  if (is_dimmed && (is_point || is_line || !set_pattern_map())) flux *= mean_transmittance();
+  if (is_dimmed && (is_point || is_line || !set_pattern_map())) dimmed = mean_transmittance();
 #endif
-  bool is_small = is_point || is_line;
-  float value = is_small ? flux * fraction : flux * level / area_px;
-  vec2 middle = drawn == WHOLE ? bilinear(part.pixels, vec2(0.5)) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
-  if (is_small) middle = vec2(0.0);
-  list_any(is_point, is_line, from, to, Density(middle, value, is_small ? vec2(0.0) : gradient * value), low, high);
+  density.value *= dimmed;
+  density.gradient *= dimmed;
+  if (is_point || is_line) density = Density(vec2(0.0), flux * dimmed, vec2(0.0));
+  list_any(is_point, is_line, from, to, density, low, high);
 }
 
 // The pixel of a place between straight sides.
@@ -193,6 +193,18 @@ vec2 bent_by(vec2 at) {
   return -0.5 * (by_first * bend_of_first + along.x * along.y * bend_of_middle);
 }
 
+vec2 middle_of_drawn() {
+  return drawn == WHOLE ? bilinear(part.pixels, vec2(0.5)) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
+}
+
+// Twice the mean of the light of a square, or that of a triangle, if it were everywhere as at a place.
+float light_at(vec2 at) {
+  if (drawn == WHOLE) return 2.0 * dot(corner_weights(at), part.light);
+  vec2 along = in_triangle(at);
+  vec3 light = drawn == FIRST_HALF ? part.light.xyz : part.light.xzw;
+  return light.x + (light.y - light.x) * along.x + (light.z - light.x) * along.y;
+}
+
 void list_drawn(vec2 gradient) {
   clip_part(HAS_PICTURE ? 0u : pattern == 0u ? crossings_of(item) : crossings_of(item) - 1u);
   if (corner_count < 3) return;
@@ -200,23 +212,41 @@ void list_drawn(vec2 gradient) {
   find_occluders();
   if (is_dimmed) find_middle(fraction);
   vec2 low = vec2(FAILED), high = vec2(-FAILED);
-  // Twice the areas that the polygon has, and that it would have between straight sides.
-  float area = 0.0, straight_area = 0.0;
-  vec2 before = vec2(0.0), straight_before = vec2(0.0), origin = pixel_between(polygon[0]);
+  // The sums, over the polygon's triangles from its first corner, of twice their areas: in pixels, in pixels between
+  // straight sides, and in the part; and of three times their middles by these, from the first corner.
+  float area = 0.0, straight_area = 0.0, area_in_part = 0.0;
+  vec2 middle = vec2(0.0), middle_in_part = vec2(0.0);
+  vec2 origin = pixel_between(polygon[0]), origin_in_part = polygon[0], bent_origin = origin + bent_by(polygon[0]);
+  vec2 before = vec2(0.0), straight_before = vec2(0.0), before_in_part = vec2(0.0);
   for (int k = 0; k < corner_count; ++k) {
-    vec2 straight = pixel_between(polygon[k]), here = straight + bent_by(polygon[k]);
+    vec2 in_part = polygon[k] - origin_in_part, straight = pixel_between(polygon[k]) - origin;
+    vec2 here = origin + straight + bent_by(polygon[k]);
     polygon[k] = here;
     low = min(low, here);
     high = max(high, here);
-    area += cross2(before, here - origin);
-    straight_area += cross2(straight_before, straight - origin);
-    before = here - origin;
-    straight_before = straight - origin;
+    here -= bent_origin;
+    float by = cross2(before, here), by_in_part = cross2(before_in_part, in_part);
+    area += by;
+    straight_area += cross2(straight_before, straight);
+    area_in_part += by_in_part;
+    middle += by * (before + here);
+    middle_in_part += by_in_part * (before_in_part + in_part);
+    before = here;
+    straight_before = straight;
+    before_in_part = in_part;
   }
-  area += cross2(before, polygon[0] - origin);
-  // The part's light is what it is between straight sides, which parts and cells share.
-  float level = area * straight_area > 0.0 ? min(straight_area / area, MOST_LEVEL) : 1.0;
-  list_part(triangle_weight * transmission, fraction, level, gradient, low, high);
+  // Its flux is its part of the entrance plane by the light at its middle, and its density makes this flux of its area, but
+  // is near that of the part: the areas of thin polygons are uncertain.
+  middle_in_part = origin_in_part + (area_in_part != 0.0 ? middle_in_part / (3.0 * area_in_part) : vec2(0.0));
+  float flux = triangle_weight * light_at(middle_in_part) * fraction;
+  float of_part = triangle_weight * transmission / area_px;
+  Density density = Density(middle_of_drawn(), of_part, vec2(0.0));
+  if (area * straight_area > 0.0) {
+    density.point = clamp(bent_origin + middle / (3.0 * area), low, high);
+    density.value = clamp(2.0 * flux / abs(area), of_part / MOST_LEVEL, of_part * MOST_LEVEL);
+  }
+  density.gradient = gradient * density.value;
+  list_part(flux, density, low, high);
 }
 
 // Reads a square part of the cell. Corners of the cell are its rays, of which some may fail.
@@ -279,6 +309,29 @@ bool is_unfolded() {
   return all(greaterThan(areas, vec4(least))) || all(lessThan(areas, vec4(-least)));
 }
 
+// The relative irradiance at a corner of the part: its light by the area of the parallelogram of the sides' directions
+// there. 0 if its image folds.
+float irradiance_of_corner(int k, float orientation) {
+  int next = (k + 1) & 3, before = (k + 3) & 3;
+  vec2 here = part.pixels.corners[k];
+  vec2 along = part.pixels.corners[next] - here - 0.5 * part.pixels.bends[k];
+  vec2 back = part.pixels.corners[before] - here - 0.5 * part.pixels.bends[before];
+  float area = cross2(along, back) * orientation;
+  return area > 0.0 ? part.light[k] / area : 0.0;
+}
+
+// The change of the part's density by its mean. Cells beside rays that fail have one, too.
+#define DIMMEST_CORNER 0.1  // of the sum of all; below, the part is about to fold, and the gradient vanishes
+vec2 gradient_of_part() {
+  vec2 d = part.pixels.corners[2] - part.pixels.corners[0], f = part.pixels.corners[3] - part.pixels.corners[1];
+  float twice_area = cross2(d, f);
+  if (abs(twice_area) < 2.0 * SHADED_CELL_PX) return vec2(0.0);
+  vec4 e;
+  for (int k = 0; k < 4; ++k) e[k] = irradiance_of_corner(k, sign(twice_area));
+  float dimmest = min(min(e.x, e.y), min(e.z, e.w)) / max(e.x + e.y + e.z + e.w, 1e-37);
+  return dimmest > 0.0 ? gradient_along(d, f, e) * min(dimmest / DIMMEST_CORNER, 1.0) : vec2(0.0);
+}
+
 void main() {
   uint k = linear_group() * 64u + gl_LocalInvocationID.x;
   if (k >= min(counters[COUNT_CUT], p.cut_capacity)) return;
@@ -296,13 +349,10 @@ void main() {
 #endif
   fails = bvec4(failed(ray_of(v.x)), failed(ray_of(v.y)), failed(ray_of(v.z)), failed(ray_of(v.w)));
   if (fails.x || fails.z || fails.y && fails.w) return;
-  vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
-  float area = any(fails) ? 0.0 : 0.5 * cross2(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy);
-  bool is_shaded = all(greaterThan(e, vec4(0.0))) && abs(area) >= SHADED_CELL_PX;
-  vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
   float size = 1.0 / float(parts);
   read_part(vec2(number % parts, number / parts) * size, size);
   triangle_weight *= size * size;
+  vec2 gradient = gradient_of_part();
   bool is_linear = !is_unfolded();
   if (is_linear) part.pixels.bends = vec2[4](vec2(0.0), vec2(0.0), vec2(0.0), vec2(0.0));
   // Patterns and occluders are linear over triangles.

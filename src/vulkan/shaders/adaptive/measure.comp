@@ -464,6 +464,7 @@ void main() {
     for (uint k = gl_LocalInvocationIndex; k < count * STATE_WORDS; k += 256u) states[STATE_WORDS * first + k] = 0.0;
     return;
   }
+  if (gl_LocalInvocationIndex == 0u) atomicAdd(counters[COUNT_SEARCHED], count);
   for (uint turn = 0u; turn < count; ++turn) {
     // The middle item first, which the others are compared with.
     uint item = turn == 0u ? middle : first + turn - (first + turn <= middle ? 1u : 0u);

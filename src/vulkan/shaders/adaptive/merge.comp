@@ -104,7 +104,7 @@ bool list_block(uvec2 at) {
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   vec2 gradient = abs(area) >= SHADED_CELL_PX ? gradient_of(v, e) : vec2(0.0);
   float value = flux / abs(area);
-  Density density = Density((a + b + c + d) * 0.25, value, gradient * value);
+  Density density = Density(centroid_of(a, b, c, d), value, gradient * value);
   vec3 change = gain_change(), largest = abs(gain) + change;
   float allowed = p.merge_error * frame_peak() / unit;  // times gains
   if (value * max(max(change.x, change.y), change.z) > allowed) return false;

@@ -173,6 +173,7 @@ void main() {
   vec2 cell = scans ? (place_of(rays, k) - searched.xy) / step_mm : vec2(first_cell + gl_LocalInvocationID.xy);
   bool all_items = level >= ALL_ITEMS_LEVEL && !is_outer;
   uint first = all_items ? group_word(group, 0u) : item, count = all_items ? group_word(group, 1u) : 1u;
+  if (k == 0u) atomicAdd(counters[COUNT_SEARCHED], count);
   for (uint each = first; each < first + count; ++each) {
     trace_corners(each, rays);
     barrier();
