@@ -220,6 +220,26 @@ TEST_CASE("the device keeps the pupils of lights that stand still, and draws the
   test::check_no_messages();
 }
 
+TEST_CASE("the statistics count a device's rays and invocations, and the bytes between it and the host") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("heliar");
+  FrameSettings settings = settings_of(lens, 48, 27);
+  settings.selection = SelectBrightest{2};
+  const auto lights = std::span(kTwoLights).first(1);
+  const RenderStatistics first = frame_by(AdaptiveOptions{}, lens, lights, settings, device.cache).statistics;
+  const RenderStatistics second = frame_by(AdaptiveOptions{}, lens, lights, settings, device.cache).statistics;
+  CHECK(first.rays > second.rays);  // which does not search
+  CHECK(second.rays >= 4 * 256);    // the measures of two ghosts at two wavelengths
+  CHECK(second.device_bytes >= std::uint64_t{4 * 3 * 48 * 27});
+  if (device.kept.device->info().kind == "processor")
+    CHECK(first.device_invocations - second.device_invocations >= first.rays - second.rays);
+  const RenderStatistics of_cpu = frame_by(AdaptiveOptions{}, lens, lights, settings, device.cpu_cache).statistics;
+  CHECK(of_cpu.device_invocations == 0);
+  CHECK(of_cpu.device_bytes == 0);
+  test::check_no_messages();
+}
+
 // Processors have code of their own for rays in pairs, sums and tiles. What it draws, the code for GPUs has to draw,
 // too.
 TEST_CASE("a processor draws the same with the code for GPUs [slow]") {
