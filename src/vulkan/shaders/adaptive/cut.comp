@@ -212,7 +212,7 @@ void list_drawn(vec2 gradient) {
   find_occluders();
   if (is_dimmed) find_middle(fraction);
   vec2 low = vec2(FAILED), high = vec2(-FAILED);
-  // The sums, over the polygon's triangles from its first corner, of twice their areas: in pixels, in pixels between
+  // Sums over the polygon's triangles from its first corner: of twice their areas in pixels, in pixels between
   // straight sides, and in the part; and of three times their middles by these, from the first corner.
   float area = 0.0, straight_area = 0.0, area_in_part = 0.0;
   vec2 middle = vec2(0.0), middle_in_part = vec2(0.0);
@@ -235,8 +235,8 @@ void list_drawn(vec2 gradient) {
     straight_before = straight;
     before_in_part = in_part;
   }
-  // Its flux is its part of the entrance plane by the light at its middle, and its density makes this flux of its area, but
-  // is near that of the part: the areas of thin polygons are uncertain.
+  // Its flux is its part of the entrance plane by the light at its middle, and its density makes this flux of its area,
+  // but is near that of the part: the areas of thin polygons are uncertain.
   middle_in_part = origin_in_part + (area_in_part != 0.0 ? middle_in_part / (3.0 * area_in_part) : vec2(0.0));
   float flux = triangle_weight * light_at(middle_in_part) * fraction;
   float of_part = triangle_weight * transmission / area_px;
