@@ -41,7 +41,6 @@ DeviceContext::DeviceContext(std::shared_ptr<OpenedDevice> opened, const DeviceI
   commands_ = vk::raii::CommandBuffers(device_, {*command_pool_, vk::CommandBufferLevel::ePrimary, 1});
   fence_ = device_.createFence({});
   if (opened_->tick_ns() > 0.0) clock_ = device_.createQueryPool({{}, vk::QueryType::eTimestamp, kMostStages + 1});
-  if (counts_invocations_) indirect_groups_.need(device_, opened_->memory(), kGroupCountBytes * kMostIndirect);
   for (std::size_t k = 0; k < kSlots; ++k) buffers_.emplace_back(residence_of(k));
   opened_->add_context();
 }
@@ -112,6 +111,7 @@ void DeviceContext::describe_texels() {
 
 void DeviceContext::begin() {
   if (!described_) describe_buffers();
+  if (counts_invocations_) indirect_groups_.need(device_, opened_->memory(), kGroupCountBytes * kMostIndirect);
   const vk::raii::CommandBuffer& commands = commands_.front();
   commands.reset();
   commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
