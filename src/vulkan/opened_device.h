@@ -32,7 +32,7 @@ class OpenedDevice {
   [[nodiscard]] const vk::PhysicalDeviceLimits& limits() const { return properties_.limits; }
   [[nodiscard]] const vk::PhysicalDeviceMemoryProperties& memory() const { return memory_; }
   [[nodiscard]] double tick_ns() const { return tick_ns_; }  // of the queue's clock; 0: it has none
-  // The invocations of a shader's workgroup.
+  // The invocations of a shader's workgroup: the local sizes that the files of shaders state.
   [[nodiscard]] std::uint32_t group_size_of(Shader shader) const;
   // The layouts of the set of all buffers, and of that of the path.
   [[nodiscard]] std::array<vk::DescriptorSetLayout, 2> set_layouts() const { return {*set_layout_, *path_layout_}; }

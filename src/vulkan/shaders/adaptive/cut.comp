@@ -44,7 +44,7 @@ uint pattern = 0u;
 vec2 last_stops[3];
 bool is_dimmed = false;  // the triangle, by more than rims and the sharp iris
 #define MEAN_OF_BENDS (1.0 / 24.0)  // of a square's parabolas, by the sum of the four second differences
-#define MOST_LEVEL 2.0  // of a part's density, by that between straight sides
+#define MOST_LEVEL 2.0  // of a polygon's density, by that of its part, and the inverse
 #ifdef OCCLUDERS
 #define IS_OCCLUDED true
 // Shadows are sharper than most fringes, so that all triangles in a pixel must have the mean over the pixel, or each of
@@ -197,7 +197,7 @@ vec2 middle_of_drawn() {
   return drawn == WHOLE ? bilinear(part.pixels, vec2(0.5)) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
 }
 
-// Twice the mean of the light of a square, or that of a triangle, if it were everywhere as at a place.
+// The light at a place, as triangle_weight counts it: twice for the part as a whole, which has two triangles.
 float light_at(vec2 at) {
   if (drawn == WHOLE) return 2.0 * dot(corner_weights(at), part.light);
   vec2 along = in_triangle(at);
@@ -235,8 +235,8 @@ void list_drawn(vec2 gradient) {
     straight_before = straight;
     before_in_part = in_part;
   }
-  // Its flux is its part of the entrance plane by the light at its middle, and its density makes this flux of its area,
-  // but is near that of the part: the areas of thin polygons are uncertain.
+  // The polygon's flux is its area of the entrance plane by the light at its centroid there. The density is this flux
+  // by the area in pixels, but stays near that of the part, since the areas of thin polygons are uncertain.
   middle_in_part = origin_in_part + (area_in_part != 0.0 ? middle_in_part / (3.0 * area_in_part) : vec2(0.0));
   float flux = triangle_weight * light_at(middle_in_part) * fraction;
   float of_part = triangle_weight * transmission / area_px;
