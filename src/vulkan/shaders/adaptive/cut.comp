@@ -22,7 +22,7 @@ layout(local_size_x = 64) in;
 // The part's values, with those of clip_part.glsl.
 struct Part {
   Patch pixels;
-  vec4 light;
+  vec4 light, light_bends;  // at the corners, and their second differences along the sides
 #ifdef OCCLUDERS
   vec2 fronts[4];
 #endif
@@ -185,7 +185,7 @@ vec2 pixel_between(vec2 at) {
 }
 
 // The distance of the pixel from there, since the sides bend. The side between two halves is straight.
-vec2 bent_by(vec2 at) {
+vec2 distance_of_bends(vec2 at) {
   if (drawn == WHOLE) return value_at(part.pixels, at) - bilinear(part.pixels, at);
   vec2 along = in_triangle(at), bend_of_middle = part.pixels.bends[drawn == FIRST_HALF ? 1 : 2];
   vec2 bend_of_first = part.pixels.bends[drawn == FIRST_HALF ? 0 : 3];
@@ -197,12 +197,32 @@ vec2 middle_of_drawn() {
   return drawn == WHOLE ? bilinear(part.pixels, vec2(0.5)) : (pixels[0] + pixels[1] + pixels[2]) * (1.0 / 3.0);
 }
 
-// The light at a place, as triangle_weight counts it: twice for the part as a whole, which has two triangles.
-float light_at(vec2 at) {
-  if (drawn == WHOLE) return 2.0 * dot(corner_weights(at), part.light);
+float bend_of_light() { return dot(part.light_bends, vec4(MEAN_OF_BENDS)); }
+
+// The mean light of a polygon about a place, as triangle_weight counts it: twice for the part as a whole, which has two
+// triangles. area: the polygon's, by what is drawn. Its variance along each side is taken for that of a square.
+float light_about(vec2 at, float area) {
+  if (drawn == WHOLE) {
+    vec2 t = parabolas(at);
+    float bend = t.x * mix(part.light_bends.x, part.light_bends.z, at.y) +
+                 t.y * mix(part.light_bends.w, part.light_bends.y, at.x);
+    return 2.0 * max(dot(corner_weights(at), part.light) - bend + 0.5 * area * bend_of_light(), 0.0);
+  }
   vec2 along = in_triangle(at);
   vec3 light = drawn == FIRST_HALF ? part.light.xyz : part.light.xzw;
-  return light.x + (light.y - light.x) * along.x + (light.z - light.x) * along.y;
+  return max(light.x + (light.y - light.x) * along.x + (light.z - light.x) * along.y - bend_of_light(), 0.0);
+}
+
+// Adds what lies between the image of an edge of the polygon and a straight line, if the edge lies on a side of the part.
+// Edges at rims are straight: no neighbour has what they leave out.
+#define ON_SIDE 1e-4
+void add_bulge_of_edge(inout Bulges bulges, vec2 from_in_part, vec2 to_in_part, vec2 from, vec2 to) {
+  vec2 low = min(from_in_part, to_in_part), high = max(from_in_part, to_in_part), extent = high - low;
+  bool on_row = high.y < ON_SIDE || low.y > 1.0 - ON_SIDE, on_column = high.x < ON_SIDE || low.x > 1.0 - ON_SIDE;
+  vec2 bend = on_row      ? extent.x * extent.x * (low.y < 0.5 ? part.pixels.bends[0] : part.pixels.bends[2])
+              : on_column ? extent.y * extent.y * (low.x < 0.5 ? part.pixels.bends[3] : part.pixels.bends[1])
+                          : vec2(0.0);
+  add_bulge(bulges, from, to, bend);
 }
 
 void list_drawn(vec2 gradient) {
@@ -216,11 +236,13 @@ void list_drawn(vec2 gradient) {
   // straight sides, and in the part; and of three times their middles by these, from the first corner.
   float area = 0.0, straight_area = 0.0, area_in_part = 0.0;
   vec2 middle = vec2(0.0), middle_in_part = vec2(0.0);
-  vec2 origin = pixel_between(polygon[0]), origin_in_part = polygon[0], bent_origin = origin + bent_by(polygon[0]);
+  vec2 origin_in_part = polygon[0], origin = pixel_between(polygon[0]);
+  vec2 bent_origin = origin + distance_of_bends(polygon[0]);
   vec2 before = vec2(0.0), straight_before = vec2(0.0), before_in_part = vec2(0.0);
+  Bulges bulges = Bulges(0.0, vec2(0.0));  // from the first corner
   for (int k = 0; k < corner_count; ++k) {
-    vec2 in_part = polygon[k] - origin_in_part, straight = pixel_between(polygon[k]) - origin;
-    vec2 here = origin + straight + bent_by(polygon[k]);
+    vec2 place = polygon[k], in_part = place - origin_in_part, straight = pixel_between(place) - origin;
+    vec2 here = origin + straight + distance_of_bends(place);
     polygon[k] = here;
     low = min(low, here);
     high = max(high, here);
@@ -231,19 +253,23 @@ void list_drawn(vec2 gradient) {
     area_in_part += by_in_part;
     middle += by * (before + here);
     middle_in_part += by_in_part * (before_in_part + in_part);
+    add_bulge_of_edge(bulges, origin_in_part + before_in_part, place, before, here);
     before = here;
     straight_before = straight;
     before_in_part = in_part;
   }
+  add_bulge_of_edge(bulges, origin_in_part + before_in_part, origin_in_part, before, vec2(0.0));
   // The polygon's flux is its area of the entrance plane by the light at its centroid there. The density is this flux
   // by the area in pixels, but stays near that of the part, since the areas of thin polygons are uncertain.
   middle_in_part = origin_in_part + (area_in_part != 0.0 ? middle_in_part / (3.0 * area_in_part) : vec2(0.0));
-  float flux = triangle_weight * light_at(middle_in_part) * fraction;
+  float flux = triangle_weight * light_about(middle_in_part, fraction) * fraction;
   float of_part = triangle_weight * transmission / area_px;
   Density density = Density(middle_of_drawn(), of_part, vec2(0.0));
   if (area * straight_area > 0.0) {
-    density.point = clamp(bent_origin + middle / (3.0 * area), low, high);
-    density.value = clamp(2.0 * flux / abs(area), of_part / MOST_LEVEL, of_part * MOST_LEVEL);
+    if (area_px < SHADED_CELL_PX) bulges = Bulges(0.0, vec2(0.0));
+    density = density_of(flux, 0.5 * area, middle / (3.0 * area), bulges, vec2(0.0));
+    density.point = clamp(bent_origin + density.point, low, high);
+    density.value = clamp(density.value, of_part / MOST_LEVEL, of_part * MOST_LEVEL);
   }
   density.gradient = gradient * density.value;
   list_part(flux, density, low, high);
@@ -260,10 +286,8 @@ void read_part(vec2 low, float size) {
     heights_of_part[k] = rays.corners[k].w;
     height_bends_of_part[k] = rays.bends[k].w;
   }
-  // Light is linear in what is drawn: it is moved by the mean of what it bends.
-  float bend = rays.bends[0].z + rays.bends[1].z + rays.bends[2].z + rays.bends[3].z;
-  vec4 light = vec4(rays.corners[0].z, rays.corners[1].z, rays.corners[2].z, rays.corners[3].z);
-  part.light = max(light - MEAN_OF_BENDS * bend, vec4(0.0));
+  part.light = vec4(rays.corners[0].z, rays.corners[1].z, rays.corners[2].z, rays.corners[3].z);
+  part.light_bends = vec4(rays.bends[0].z, rays.bends[1].z, rays.bends[2].z, rays.bends[3].z);
   for (uint c = 0u; c < MAX_CROSSINGS; ++c) {
     if (c >= crossings_of(item)) continue;
     for (int k = 0; k < 12; ++k) values[k] = exists[k] ? vec4(crossing(around[k], c), 0.0, 0.0) : vec4(0.0);
@@ -293,8 +317,8 @@ void set_drawn(uint how) {
   if (pattern != 0u) last_stops = stops_of_drawn(crossings_of(item) - 1u);
   vec2 corners[4] = part.pixels.corners;
   vec2 a = corners[0], b = corners[1], c = corners[2], d = corners[3];
-  float first_half = (part.light.x + part.light.y + part.light.z) / 3.0;
-  float second_half = (part.light.x + part.light.z + part.light.w) / 3.0;
+  float first_half = max((part.light.x + part.light.y + part.light.z) / 3.0 - bend_of_light(), 0.0);
+  float second_half = max((part.light.x + part.light.z + part.light.w) / 3.0 - bend_of_light(), 0.0);
   transmission = (how == SECOND_HALF ? 0.0 : first_half) + (how == FIRST_HALF ? 0.0 : second_half);
   pixels = drawn_corners(corners);
   area_px = 0.5 * abs(how == WHOLE ? cross2(c - a, d - b) : cross2(pixels[1] - a, pixels[2] - a));

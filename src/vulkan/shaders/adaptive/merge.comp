@@ -84,6 +84,25 @@ vec3 gain_change() {
   return change;
 }
 
+// What lies between the sides of a block, as its rays show them, and straight lines between its corners.
+Bulges find_bulges(uint first, vec2 a, vec2 b, vec2 c, vec2 d) {
+  Bulges bulges = Bulges(0.0, vec2(0.0));
+  vec2 ab = vec2(0.0), bc = vec2(0.0), cd = vec2(0.0), da = vec2(0.0);  // means of the distances
+  for (uint k = 1u; k < cells; ++k) {
+    float t = float(k) / float(cells), weight = weight_of(k) / float(cells);
+    uint by_row = k, by_column = k * side;
+    ab += weight * (pixel_of(first + by_row) - mix(a, b, t));
+    bc += weight * (pixel_of(first + cells + by_column) - mix(b, c, t));
+    cd += weight * (pixel_of(first + cells * side + by_row) - mix(d, c, t));
+    da += weight * (pixel_of(first + by_column) - mix(a, d, t));
+  }
+  add_bulge(bulges, a, b, -12.0 * ab);
+  add_bulge(bulges, b, c, -12.0 * bc);
+  add_bulge(bulges, c, d, -12.0 * cd);
+  add_bulge(bulges, d, a, -12.0 * da);
+  return bulges;
+}
+
 // Lists the block that begins at a ray. False if its cells are to be drawn by themselves.
 bool list_block(uvec2 at) {
   uint first = ray_at(at.x, at.y);
@@ -102,12 +121,14 @@ bool list_block(uvec2 at) {
   float area = 0.5 * cross2(c - a, d - b);
   if (!is_convex(a, b, c, d, area)) return false;
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
-  vec2 gradient = abs(area) >= SHADED_CELL_PX ? gradient_of(v, e) : vec2(0.0);
-  float value = flux / abs(area);
-  Density density = Density(centroid_of(a, b, c, d), value, gradient * value);
+  bool is_shaded = abs(area) >= SHADED_CELL_PX;
+  Bulges bulges = Bulges(0.0, vec2(0.0));
+  if (is_shaded) bulges = find_bulges(first, a, b, c, d);
+  vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
+  Density density = density_of(flux, area, centroid_of(a, b, c, d), bulges, gradient);
   vec3 change = gain_change(), largest = abs(gain) + change;
   float allowed = p.merge_error * frame_peak() / unit;  // times gains
-  if (value * max(max(change.x, change.y), change.z) > allowed) return false;
+  if (density.value * max(max(change.x, change.y), change.z) > allowed) return false;
   if (!plane_serves(first, density, allowed / max(max(max(largest.x, largest.y), largest.z), 1e-37))) return false;
   density.value *= unit;
   density.gradient *= unit;
