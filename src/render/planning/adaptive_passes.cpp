@@ -114,14 +114,18 @@ std::vector<std::size_t> common_rays(std::span<const RayGrid> grids) {
   return common;
 }
 
+// The largest distance between a ray's images in two grids, of the rays that arrive in both. Where none does, since the
+// pupil moves as well, it is of those that arrive in one and do not fail in the other.
 double shift_mm(const RayGrid& a, const RayGrid& b) {
-  double largest = 0.0;
+  double in_both = 0.0, in_one = 0.0;
   for (std::size_t k = 0; k < a.blocked.size(); ++k) {
-    if (!(a.blocked[k] <= kNearlyThrough && b.blocked[k] <= kNearlyThrough)) continue;
-    const Vec2 shift{a.sensor_x_mm[k] - b.sensor_x_mm[k], a.sensor_y_mm[k] - b.sensor_y_mm[k]};
-    largest = std::max(largest, length(shift));
+    const auto [least, most] = std::minmax(a.blocked[k], b.blocked[k]);
+    if (!(least <= kNearlyThrough && std::isfinite(most))) continue;
+    const double shift = length(sensor_of(a, k) - sensor_of(b, k));
+    double& largest = most <= kNearlyThrough ? in_both : in_one;
+    largest = std::max(largest, shift);
   }
-  return largest;
+  return in_both > 0.0 ? in_both : in_one;
 }
 
 // Traces the rays of one ghost of one light, in the light's meridional frame where there is one.
