@@ -28,7 +28,7 @@ LensState zoomed(const char* name, double focal_length_mm, double f_number) {
   return *zoom;
 }
 
-// A ghost of which no ray passes at both ends of the spectrum, and only few at the last wavelength of three.
+// A ghost of which no ray passes at both ends of the spectrum. Drawn at three wavelengths, it passes only at the last.
 struct RedGhost {
   LensState lens = zoomed("canon-70-200", 135.0, 8.0);
   FrameSettings settings = settings_of(lens, 160, 90);

@@ -65,32 +65,3 @@ vec2 gradient_along(vec2 first_diagonal, vec2 second_diagonal, vec4 e) {
 vec2 gradient_of(uvec4 v, vec4 e) {
   return gradient_along(ray_of(v.z).xy - ray_of(v.x).xy, ray_of(v.w).xy - ray_of(v.y).xy, e);
 }
-
-// What lies between the sides of an image, which are parabolas, and straight lines in their place: its area, which has the
-// sign of the image's, and its first moment.
-struct Bulges {
-  float area;
-  vec2 moment;
-};
-
-// bend: the second difference along the side.
-void add_bulge(inout Bulges bulges, vec2 from, vec2 to, vec2 bend) {
-  float area = -cross2(bend, to - from) / 12.0;  // the mean of t (1 - t) / 2 is 1 / 12
-  bulges.area += area;
-  bulges.moment += area * 0.5 * (from + to);
-}
-
-// The density of an image whose sides bend, from its flux and what straight lines in place of the sides enclose. It is the
-// mean over the image itself, at the image's centroid, though the sides are drawn straight: with the mean over what is
-// drawn, a ghost larger than the frame would be too dim in all of it. An image that differs by more than half is about
-// to fold, and counts as what is drawn.
-#define LARGEST_BULGE 0.5
-Density density_of(float flux, float area, vec2 middle, Bulges bulges, vec2 gradient) {
-  float larger_by = bulges.area / area;
-  if (abs(larger_by) <= LARGEST_BULGE) {
-    middle = (middle + bulges.moment / area) / (1.0 + larger_by);
-    area *= 1.0 + larger_by;
-  }
-  float value = flux / abs(area);
-  return Density(middle, value, gradient * value);
-}

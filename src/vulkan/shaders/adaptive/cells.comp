@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "../iris.glsl"
 #include "../polygon.glsl"
 #include "../cell.glsl"
+#include "bent_image.glsl"
 #include "list.glsl"
 #include "side_bend.glsl"
 #ifdef OCCLUDERS
@@ -27,17 +28,17 @@ vec4 bend_of_side(uvec2 at, uvec2 along, vec4 first, vec4 second) {
 }
 
 // The mean, over an open cell, of what its light bends from the linear, as the rays around show: coatings transmit
-// light that is far from linear over a coarse cell. bulges: what lies between the cell's sides and straight lines.
+// light that is far from linear over a coarse cell. Sets the bulges of its sides.
 float light_bend(uvec4 v, out Bulges bulges) {
   uvec2 at = uvec2(own % side, own / side);
   vec4 a = ray_of(v.x), b = ray_of(v.y), c = ray_of(v.z), d = ray_of(v.w);
   vec4 below = bend_of_side(at, uvec2(1u, 0u), a, b), above = bend_of_side(at + uvec2(0u, 1u), uvec2(1u, 0u), d, c);
   vec4 left = bend_of_side(at, uvec2(0u, 1u), a, d), right = bend_of_side(at + uvec2(1u, 0u), uvec2(0u, 1u), b, c);
   bulges = Bulges(0.0, vec2(0.0));
-  add_bulge(bulges, pixel_of(v.x), pixel_of(v.y), below.xy);
-  add_bulge(bulges, pixel_of(v.y), pixel_of(v.z), right.xy);
-  add_bulge(bulges, pixel_of(v.z), pixel_of(v.w), above.xy);
-  add_bulge(bulges, pixel_of(v.w), pixel_of(v.x), left.xy);
+  add_bulge(bulges, pixel_of(v.x), pixel_of(v.y), mean_distance_of(below.xy));
+  add_bulge(bulges, pixel_of(v.y), pixel_of(v.z), mean_distance_of(right.xy));
+  add_bulge(bulges, pixel_of(v.z), pixel_of(v.w), mean_distance_of(above.xy));
+  add_bulge(bulges, pixel_of(v.w), pixel_of(v.x), mean_distance_of(left.xy));
   return -(below.z + right.z + above.z + left.z) / 24.0;
 }
 

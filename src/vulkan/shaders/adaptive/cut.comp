@@ -12,6 +12,7 @@ layout(local_size_x = 64) in;
 #include "../iris.glsl"
 #include "clip_part.glsl"
 #include "../cell.glsl"
+#include "bent_image.glsl"
 #include "list.glsl"
 #ifdef OCCLUDERS
 #include "../coverage.glsl"
@@ -213,8 +214,8 @@ float light_about(vec2 at, float area) {
   return max(light.x + (light.y - light.x) * along.x + (light.z - light.x) * along.y - bend_of_light(), 0.0);
 }
 
-// Adds what lies between the image of an edge of the polygon and a straight line, if the edge lies on a side of the part.
-// Edges at rims are straight: no neighbour has what they leave out.
+// Adds the bulge of an edge of the polygon, if it lies on a side of the part. Edges at rims have none, since no neighbour
+// draws the light that they would leave out.
 #define ON_SIDE 1e-4
 void add_bulge_of_edge(inout Bulges bulges, vec2 from_in_part, vec2 to_in_part, vec2 from, vec2 to) {
   vec2 low = min(from_in_part, to_in_part), high = max(from_in_part, to_in_part), extent = high - low;
@@ -222,7 +223,7 @@ void add_bulge_of_edge(inout Bulges bulges, vec2 from_in_part, vec2 to_in_part, 
   vec2 bend = on_row      ? extent.x * extent.x * (low.y < 0.5 ? part.pixels.bends[0] : part.pixels.bends[2])
               : on_column ? extent.y * extent.y * (low.x < 0.5 ? part.pixels.bends[3] : part.pixels.bends[1])
                           : vec2(0.0);
-  add_bulge(bulges, from, to, bend);
+  add_bulge(bulges, from, to, mean_distance_of(bend));
 }
 
 void list_drawn(vec2 gradient) {

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 #include "../iris.glsl"
 #include "../polygon.glsl"
 #include "../cell.glsl"
+#include "bent_image.glsl"
 #include "list.glsl"
 #include "state.glsl"
 #include "merged.glsl"
@@ -84,10 +85,10 @@ vec3 gain_change() {
   return change;
 }
 
-// What lies between the sides of a block, as its rays show them, and straight lines between its corners.
+// Finds the bulges of the sides of a block, which its rays show.
 Bulges find_bulges(uint first, vec2 a, vec2 b, vec2 c, vec2 d) {
   Bulges bulges = Bulges(0.0, vec2(0.0));
-  vec2 ab = vec2(0.0), bc = vec2(0.0), cd = vec2(0.0), da = vec2(0.0);  // means of the distances
+  vec2 ab = vec2(0.0), bc = vec2(0.0), cd = vec2(0.0), da = vec2(0.0);  // mean distances, by Simpson
   for (uint k = 1u; k < cells; ++k) {
     float t = float(k) / float(cells), weight = weight_of(k) / float(cells);
     uint by_row = k, by_column = k * side;
@@ -96,10 +97,10 @@ Bulges find_bulges(uint first, vec2 a, vec2 b, vec2 c, vec2 d) {
     cd += weight * (pixel_of(first + cells * side + by_row) - mix(d, c, t));
     da += weight * (pixel_of(first + by_column) - mix(a, d, t));
   }
-  add_bulge(bulges, a, b, -12.0 * ab);
-  add_bulge(bulges, b, c, -12.0 * bc);
-  add_bulge(bulges, c, d, -12.0 * cd);
-  add_bulge(bulges, d, a, -12.0 * da);
+  add_bulge(bulges, a, b, ab);
+  add_bulge(bulges, b, c, bc);
+  add_bulge(bulges, c, d, cd);
+  add_bulge(bulges, d, a, da);
   return bulges;
 }
 
