@@ -15,6 +15,9 @@ namespace {
 // The part of the squared error that the rays' spacing may spend; the rest is for what the measures of coarse cells do
 // not see. It was chosen, not derived: the papers' lenses come out at 63 dB and better with it (docs/gpu.md).
 constexpr double kBudgetShare = 0.125;
+// Images of few pixels have more cells a side, by this factor, which was chosen: coarse cells put their light into the
+// wrong pixels, which the measured errors do not show.
+constexpr double kCellsOfSpots = 1.25;
 // The part that cells may spend which are merged as one plane serves them, if all items lie on each other.
 constexpr double kMergeShare = 0.25;
 // The counters are fetched before the pixels.
@@ -393,10 +396,14 @@ DeviceWork AdaptiveFrame::draw(Image& image, const Context& context) {
   p.flags = flags();
   p.picture = picture_number(job_.patterns.get());
   p.small_px = small_px();
+  // At bounds finer than the standard one more of the error is what the measures do not see.
+  const double fineness = std::min(job_.error / AdaptiveOptions{}.error, 1.0);
   p.usual_cells = usual_cells();
+  p.spot_cells = static_cast<float>(kCellsOfSpots / fineness * p.usual_cells);
   p.window_blocks = job_.has_axial_symmetry ? 2 : 6;
   p.front_gap_mm = static_cast<float>(job_.front_gap_mm);
-  p.budget = static_cast<float>(kBudgetShare * job_.error * job_.error * frame.width * frame.height);
+  const double squared_error = job_.error * job_.error * frame.width * frame.height;
+  p.budget = static_cast<float>(kBudgetShare * std::sqrt(fineness) * squared_error);
   p.least_peak = static_cast<float>(job_.least_peak);
   p.merge_error = static_cast<float>(job_.error * std::sqrt(kMergeShare / static_cast<double>(job_.items.size())));
   prepare(frame);

@@ -36,6 +36,7 @@ struct AdaptiveParameters {
   std::int32_t small_px = 0;
   float merge_error = 0;
   std::uint32_t usual_cells = 0;
+  float spot_cells = 0;
   std::uint32_t window_blocks = 0;
 };
 

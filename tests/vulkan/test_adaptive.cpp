@@ -225,6 +225,18 @@ TEST_CASE("thin parts of a pupil are drawn on the device") {
   test::check_no_messages();
 }
 
+// Only the scan finds this pupil, in one cell of the window, beyond which its ends reach: a fifth of the ghost's light.
+TEST_CASE("the ends of a long, thin pupil are drawn on the device") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = zoomed("nikon-80-200", 140.0, 8.0);
+  FrameSettings settings = settings_of(lens, 64, 36);
+  settings.selection = SelectList{{{9, 13}}};
+  const Light light{.direction = direction_from_angles(0.05137, 0.02166)};
+  check_near(device, lens, {&light, 1}, settings, AdaptiveOptions{}.error, 0.005);
+  test::check_no_messages();
+}
+
 TEST_CASE("the device keeps the pupils of lights that stand still, and draws the bits of a frame by itself") {
   OnDevice device;
   if (!device.kept.device) return;

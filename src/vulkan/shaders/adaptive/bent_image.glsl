@@ -2,6 +2,14 @@
 // The density of a cell whose image has sides that bend, though they are drawn as straight lines. Included after
 // ../cell.glsl.
 
+// Whether a cell has a gradient. Small cells of caustics have none, as theirs are steep; those of smooth light need one, or
+// they show as steps of a percent. irradiance: at the corners.
+bool is_shaded(float area, vec4 irradiance) {
+  vec2 low = min(irradiance.xy, irradiance.zw), high = max(irradiance.xy, irradiance.zw);
+  bool is_smooth = max(high.x, high.y) <= 2.0 * min(low.x, low.y);
+  return abs(area) >= (is_smooth ? 1.0 : SHADED_CELL_PX);
+}
+
 // The area between the sides of an image and straight lines in their place, and its first moment. The area has the sign of
 // the image's.
 struct Bulges {

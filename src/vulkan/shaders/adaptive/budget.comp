@@ -12,10 +12,7 @@ layout(local_size_x = 256) in;
 #define MOST_CELLS_OF_SPOTS 64.0
 #define LEAST_CELLS 3.0
 #define MOST_FOR_FLUX 24.0
-// Images of so few pixels have more cells a side, by a factor: coarse cells put their light into the wrong pixels, which
-// the measured errors do not show. Both numbers were chosen.
-#define SPOT_PX 8.0
-#define CELLS_OF_SPOTS 1.25
+#define SPOT_PX 8.0  // images of fewer pixels are spots; it was chosen
 #define LARGEST_MERGED 4.0e-4    // squared displacement by the ghost's area: colours are kept to a fiftieth of its size
 #define SHARP_SHARE 0.5            // of the error: items drawn with the sharp iris in place of their stop patterns
 #define MERGED_SHARE 0.25         // of an item's error: what drawing it in another wavelength may cost
@@ -94,7 +91,7 @@ float light_of_all() {
 // cells is off by about 1 / n^2 of its flux and costs n^2: the sum of the costs is smallest, for a given sum of errors,
 // where n^4 is in proportion to the flux.
 float cells_for_flux(float light, float all_light, float extent_px) {
-  float usual = float(p.usual_cells) * (extent_px < SPOT_PX ? CELLS_OF_SPOTS : 1.0);
+  float usual = extent_px < SPOT_PX ? p.spot_cells : float(p.usual_cells);
   float typical = usual * sqrt(sqrt(float(p.item_count) * light / max(all_light, 1e-37)));
   return clamp(ceil(typical), LEAST_CELLS, MOST_FOR_FLUX);
 }

@@ -56,9 +56,9 @@ bool list_open(uvec4 v) {
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
   float area = 0.5 * cross2(c - a, d - b);
   if (!all(greaterThan(e, vec4(0.0))) || !is_convex(a, b, c, d, area)) return false;
-  bool is_shaded = abs(area) >= SHADED_CELL_PX;
-  if (!is_shaded) bulges = Bulges(0.0, vec2(0.0));
-  vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
+  bool shaded = is_shaded(area, e);
+  if (!shaded) bulges = Bulges(0.0, vec2(0.0));
+  vec2 gradient = shaded ? gradient_of(v, e) : vec2(0.0);
   list_quad(a, b, c, d, density_of(flux, area, centroid_of(a, b, c, d), bulges, gradient));
   return true;
 }

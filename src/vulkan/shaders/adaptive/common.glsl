@@ -34,6 +34,7 @@ layout(push_constant) uniform Parameters {
   int small_px;         // the most pixels of a polygon in a tile that one invocation draws by itself
   float merge_error;    // of pixels, in peaks, that a plane over several cells may make
   uint usual_cells;     // a side of an item of the mean flux; of one with fringes, at least
+  float spot_cells;     // likewise, for images of few pixels
   uint window_blocks;   // a side, of 16 x 16 rays, in which the first level searches the window for pupils
 }
 p;
@@ -184,6 +185,20 @@ uint item_of_first_level(uint group, uint level) {
 // The number of cells within bounds.
 uint extent_of(uvec4 f, uvec2 cells) { return f.z == 0u ? 0u : (f.x + f.z - cells.x) * (f.y + f.w - cells.y); }
 
+// Bounds of light that reaches the sides of the box that was searched are moved outwards, since the box may have cut off
+// some of it: boxes come from the cells of the first level. A search that was over, or whose cells all pass, says nothing.
+vec4 beyond_cuts(vec4 bounds, uvec4 passes, uvec2 cells, vec2 window, bool is_mirrored) {
+  if (passes == cells.xyxy) return bounds;
+  vec2 low = bounds.xy, high = bounds.xy + bounds.zw;
+  bvec2 low_cut = bvec2(passes.x == cells.x, is_mirrored ? passes.w == cells.y : passes.y == cells.y);
+  vec2 farther = min(0.5 * bounds.zw, 2.0 * window / float(COARSE_CELLS * p.window_blocks));
+  for (uint k = 0u; k < 2u; ++k) {
+    if (low_cut[k] && low[k] > 0.0) low[k] -= farther[k];
+    if (passes[k + 2u] == cells[k] && high[k] < window[k]) high[k] += farther[k];
+  }
+  return vec4(low, high - low);
+}
+
 #define MOST_FARTHER 4u  // the largest growth of a box by cells that may pass
 // The box of a level of the search after the first ones, from the bounds that the level before found.
 vec4 box_of_level(uint group, uint level) {
@@ -210,6 +225,9 @@ vec4 box_of_level(uint group, uint level) {
   vec2 low = searched.xy + vec2(cells - f.xy) * step_mm, high = searched.xy + vec2(f.zw) * step_mm;
   if (is_mirrored(level - 1u)) low.y = 2.0 * searched.y - high.y;
   vec4 narrowed = vec4(low, high - low);
+  // The last level's box has no margin, unless the search at the level before was over.
+  if (level > 1u && (level <= LAST_LEVEL || box == box_at(before - 1u)))
+    narrowed = beyond_cuts(narrowed, passes, cells, item_window(group_word(group, 0u)), is_mirrored(level - 1u));
   if (is_mirrored(level - 1u) && !is_mirrored(level))
     narrowed = bounds_along_frame(meridian_of(group_word(group, 0u)), narrowed);
   const float margin = 0.25;

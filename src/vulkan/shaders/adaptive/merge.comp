@@ -122,10 +122,10 @@ bool list_block(uvec2 at) {
   float area = 0.5 * cross2(c - a, d - b);
   if (!is_convex(a, b, c, d, area)) return false;
   vec4 e = vec4(irradiance_at(v.x), irradiance_at(v.y), irradiance_at(v.z), irradiance_at(v.w));
-  bool is_shaded = abs(area) >= SHADED_CELL_PX;
+  bool shaded = is_shaded(area, e);
   Bulges bulges = Bulges(0.0, vec2(0.0));
-  if (is_shaded) bulges = find_bulges(first, a, b, c, d);
-  vec2 gradient = is_shaded ? gradient_of(v, e) : vec2(0.0);
+  if (shaded) bulges = find_bulges(first, a, b, c, d);
+  vec2 gradient = shaded ? gradient_of(v, e) : vec2(0.0);
   Density density = density_of(flux, area, centroid_of(a, b, c, d), bulges, gradient);
   vec3 change = gain_change(), largest = abs(gain) + change;
   float allowed = p.merge_error * frame_peak() / unit;  // times gains
