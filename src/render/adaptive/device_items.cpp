@@ -28,10 +28,12 @@ constexpr double kSpread_px = 0.9, kLeastSpread_px = 0.1;
 
 // How much the light of a band may differ from that of its wavelengths, at the default error, and in proportion to it.
 constexpr double kUnevenness = 0.006;
+// Images below this size have narrower bands: they are cheap, and may be the brightest pixels of a frame.
+constexpr double kSpot_px = 6.0;
 
 BandLimits limits_for(double error) {
   const double times = error / AdaptiveOptions{}.error;
-  return {std::clamp(kSpread_px * times * times, kLeastSpread_px, kMaxSpread_px), kUnevenness * times};
+  return {std::clamp(kSpread_px * times * times, kLeastSpread_px, kMaxSpread_px), kUnevenness * times, kSpot_px};
 }
 
 struct LayerItems {

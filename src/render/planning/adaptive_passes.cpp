@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/tasks.h"
@@ -11,6 +12,7 @@
 #include "ghosts/light_frame.h"
 #include "optics/trace/by_wavelength.h"
 #include "render/pupils/kept_pupils.h"
+#include "render/pupils/open_halves.h"
 #include "render/radiometry/wavelength_samples.h"
 
 namespace contrejour::inline internal {
@@ -36,6 +38,7 @@ struct GhostSpectrum {
   std::vector<std::vector<double>> by_ray;  // for each pass, the transmittance of these rays
   Vec2 middle_mm;  // of the pupil
   double shift_mm = 0.0;  // largest shift of a ray's image from first to last pass
+  double image_mm = 0.0;  // size of the image at one of them: twice the standard deviation of its light
 };
 
 // How much light counts by where it arrives: 1 within the frame, and less with the distance from it, since the light of
@@ -95,6 +98,24 @@ double seen_light(const RayGrid& grid, std::span<const std::size_t> cells, const
   return sum;
 }
 
+// The light through the open part of a pupil that is seen, which also changes with the size of the pupil. Rays far
+// beyond its rim do not count, since coatings reflect much more at their angles.
+double open_light(const RayGrid& grid, const Seen& seen) {
+  double sum = 0.0;
+  const auto add = [&](const OpenTriangle& half) {
+    double light = 0.0, rays = 0.0;
+    for (const std::size_t k : half.vertex) {
+      if (grid.blocked[k] > kNearlyThrough) continue;
+      light += grid.transmission[k] * seen.at(sensor_of(grid, k));
+      rays += 1.0;
+    }
+    if (rays > 0.0) sum += half.open * light / rays;
+  };
+  for (int iy = 0; iy < grid.cells(); ++iy)
+    for (int ix = 0; ix < grid.cells(); ++ix) for_each_open_half(grid, grid.corners(ix, iy), add);
+  return sum;
+}
+
 // The first rays of the cells of which all rays arrive in all grids.
 std::vector<std::size_t> common_cells(std::span<const std::size_t> common_rays) {
   std::vector<std::size_t> cells;
@@ -128,6 +149,22 @@ double shift_mm(const RayGrid& a, const RayGrid& b) {
   return in_both > 0.0 ? in_both : in_one;
 }
 
+// Twice the standard deviation of the light of a grid's rays on the sensor; infinite where none arrives.
+double image_mm(const RayGrid& grid) {
+  double sum = 0.0;
+  Vec2 mean;
+  const auto for_each_ray = [&](const auto& visit) {
+    for (std::size_t k = 0; k < grid.blocked.size(); ++k)
+      if (grid.blocked[k] <= 0.0F) visit(sensor_of(grid, k), static_cast<double>(grid.transmission[k]));
+  };
+  for_each_ray([&](Vec2 at, double light) { sum += light, mean = mean + at * light; });
+  if (!(sum > 0.0)) return std::numeric_limits<double>::infinity();
+  mean = mean * (1.0 / sum);
+  double squares = 0.0;
+  for_each_ray([&](Vec2 at, double light) { squares += light * dot(at - mean, at - mean); });
+  return 2.0 * std::sqrt(squares / sum);
+}
+
 // Traces the rays of one ghost of one light, in the light's meridional frame where there is one.
 class GhostProbe {
  public:
@@ -149,6 +186,8 @@ class GhostProbe {
     const std::vector<RayGrid> grids = trace(window.z_mm, *pupil, out.samples);
     add_rays(grids, *pupil, out);
     if (grids.size() > 1) out.shift_mm = shift_mm(grids[0], grids[1]);
+    out.image_mm = std::numeric_limits<double>::infinity();
+    for (const RayGrid& grid : grids) out.image_mm = std::min(out.image_mm, image_mm(grid));
     return out;
   }
 
@@ -201,15 +240,21 @@ class GhostProbe {
     }
     out.by_ray.assign(lambda_nm_.size(), std::vector<double>(out.rays_mm.size(), 0.0));
     const std::vector<std::size_t> cells = common_cells(common);
-    std::vector<double> light;
-    for (const RayGrid& grid : grids)
+    // Light through the rays in common, and the whole pupil's relative to it.
+    std::vector<double> light, whole;
+    for (const RayGrid& grid : grids) {
       light.push_back(cells.empty() ? mean_transmission(grid, seen_) : seen_light(grid, cells, seen_));
+      whole.push_back(light.back() > 0.0 ? open_light(grid, seen_) / light.back() : 0.0);
+    }
     for (std::size_t pass = 0; pass < lambda_nm_.size(); ++pass) {
       const std::vector<double> factors = out.samples.factors(grids.size(), pass);
+      const std::vector<double> weights = out.samples.linear_weights(grids.size(), pass);
+      const double part = std::inner_product(weights.begin(), weights.end(), whole.begin(), 0.0);
       for (std::size_t k = 0; k < grids.size(); ++k) {
-        out.carried[pass] += factors[k] * light[k];
+        out.carried[pass] += part * factors[k] * light[k];
         for (std::size_t at = 0; at < out.rays_mm.size(); ++at)
-          out.by_ray[pass][at] += factors[k] * static_cast<double>(grids[k].transmission[common[at % common.size()]]);
+          out.by_ray[pass][at] +=
+              part * factors[k] * static_cast<double>(grids[k].transmission[common[at % common.size()]]);
       }
       out.carried[pass] = std::max(out.carried[pass], 0.0);
     }
@@ -288,12 +333,24 @@ struct Band {
   double unevenness = 0.0;
 };
 
-// One pass, at the middle one, for the passes from `first` to the one before `last`.
+// The pass at which to draw the passes from `first` to the one before `last`: the middle one, or the one nearest to it
+// that carries at least half of the most light of one, so that the light of none is multiplied by a large number.
+std::size_t drawn_pass(std::span<const double> carried, std::size_t first, std::size_t last) {
+  const std::size_t middle = (first + last) / 2;
+  const double enough = 0.5 * std::ranges::max(carried.subspan(first, last - first));
+  if (carried[middle] >= enough) return middle;
+  std::size_t at = last;
+  for (std::size_t k = first; k < last; ++k) {
+    const auto far = [&](std::size_t pass) { return pass > middle ? pass - middle : middle - pass; };
+    if (carried[k] >= enough && (at == last || far(k) < far(at))) at = k;
+  }
+  return at;
+}
+
+// One pass for the passes from `first` to the one before `last`.
 Band joined(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, std::size_t first, std::size_t last) {
   const std::vector<double>& carried = spectrum.carried;
-  std::size_t at = (first + last) / 2;
-  for (std::size_t k = first; k < last; ++k)
-    if (!(carried[at] > 0.0) && carried[k] > 0.0) at = k;
+  const std::size_t at = drawn_pass(carried, first, last);
   PlannedPass out = passes[at];
   double squares = 0.0;
   out.gain = {};
@@ -312,8 +369,9 @@ Band joined(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, 
 void add_bands(std::span<const PlannedPass> passes, const GhostSpectrum& spectrum, const BandLimits& limits,
                double pixel_mm, std::size_t first, std::size_t last, std::vector<PlannedPass>& out) {
   const auto& samples = spectrum.samples;
+  const double narrowed = limits.spot_px > 0.0 ? std::min(spectrum.image_mm / (limits.spot_px * pixel_mm), 1.0) : 1.0;
   const double wide_mm = 0.5 * spectrum.shift_mm * std::abs(samples.position(last - 1) - samples.position(first));
-  if (last - first == 1 || wide_mm <= limits.spread_px * pixel_mm) {
+  if (last - first == 1 || wide_mm <= narrowed * limits.spread_px * pixel_mm) {
     const Band band = joined(passes, spectrum, first, last);
     if (band.unevenness <= limits.unevenness) return out.push_back(band.pass);
   }
