@@ -8,18 +8,18 @@
 namespace contrejour::inline internal::vulkan {
 
 // The levels of the search for pupils, in their order; the number of those whose boxes and bounds are kept (LEVELS).
-inline constexpr std::uint32_t kOuterLevel = 4;  // OUTER_LEVEL
-inline constexpr std::array<std::uint32_t, 5> kSearchLevels{0, kOuterLevel, 1, 2, 3};
-inline constexpr std::uint32_t kSearchLevelsKept = 6;
+inline constexpr std::uint32_t kScanLevel = 4;  // SCAN_LEVEL
+inline constexpr std::array<std::uint32_t, 5> kSearchLevels{0, kScanLevel, 1, 2, 3};
+inline constexpr std::uint32_t kSearchLevelsKept = 7;
 // search_blocks(): the workgroups of a group.
 [[nodiscard]] constexpr std::uint32_t search_blocks(std::uint32_t level, std::uint32_t window_blocks,
                                                     bool is_symmetric) {
-  constexpr std::uint32_t kScans = 1, kOuterScans = 2;
+  constexpr std::uint32_t kScans = 1, kScansOfLevel = 4;
   const auto blocks = [&](std::uint32_t a_side) { return a_side * (is_symmetric ? (a_side + 1) / 2 : a_side); };
-  return level == 0                    ? blocks(window_blocks) + kScans
-         : level == kOuterLevel        ? kOuterScans
-         : level == 1 && !is_symmetric ? blocks(2)
-                                       : 1;
+  return level == 0            ? blocks(window_blocks) + kScans
+         : level == kScanLevel ? kScansOfLevel
+         : level == 1          ? is_symmetric ? 1 + kScans : blocks(2)
+                               : 1;
 }
 
 // A bit of the flags, besides those of stop_layout.h: FLAG_SYMMETRIC.

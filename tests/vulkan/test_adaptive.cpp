@@ -261,6 +261,20 @@ TEST_CASE("the ends of a long, thin pupil are drawn on the device") {
   test::check_no_messages();
 }
 
+// Only scans find these pupils, a five-hundredth of the window wide.
+TEST_CASE("pupils smaller than a cell of the second level of the search are drawn on the device") {
+  OnDevice device;
+  if (!device.kept.device) return;
+  const LensState lens = lens_of("muller-fisheye-10", 0, 8.0);
+  FrameSettings settings = settings_of(lens, 64, 36);
+  const Light light{.direction = direction_from_angles(0.43416, 0.17563)};
+  for (const Ghost& ghost : {Ghost{1, 5}, Ghost{3, 9}}) {
+    settings.selection = SelectList{{ghost}};
+    check_near(device, lens, {&light, 1}, settings, AdaptiveOptions{}.error, 0.01);
+  }
+  test::check_no_messages();
+}
+
 TEST_CASE("the device keeps the pupils of lights that stand still, and draws the bits of a frame by itself") {
   OnDevice device;
   if (!device.kept.device) return;

@@ -8,7 +8,7 @@
 
 #define ITEM_WORDS 24u
 #define STATE_WORDS 24u
-#define LEVELS 6u  // of the search for the pupil, with those of two wavelengths
+#define LEVELS 7u  // of the search for the pupil, with three scans
 
 // By group and level: the box that is searched, lower corner and size, mm from the point of the start; and the bounds
 // of its cells through which light passes, then of those through which it may pass, which count at the first level, and
@@ -122,16 +122,15 @@ vec3 state_gain(uint item, vec2 at) {
 
 #define LAST_LEVEL 3u  // of the search
 #define ALL_ITEMS_LEVEL 2u  // from which on it is at the wavelengths of all items, whose pupils may lie beside each other
-#define SCANS 1u  // workgroups that scan a group's meridian, at the first level
-// A further level follows the first one: it scans the meridian at a group's first and last wavelengths if light passes at
-// no other. Its boxes and bounds are two, for each of them.
-#define OUTER_LEVEL 4u
-#define OUTER_SCANS 1u  // workgroups that scan it
-bool searches_window(uint level) { return level == 0u || level >= OUTER_LEVEL; }
+// A further level follows the first one, and does nothing if that found light. It scans the meridian more finely, and at
+// the group's first and last wavelengths. Its boxes and bounds are three, for each of these scans.
+#define SCAN_LEVEL 4u
+#define FINE_SCANS 2u  // workgroups that scan at the middle wavelength
+bool searches_window(uint level) { return level == 0u || level >= SCAN_LEVEL; }
 // Levels whose boxes lie along the plane of the light and the axis; the halves of a box by its second side mirror each
 // other. Later boxes, and all without axial symmetry, lie along the frame: tiles are filled faster by cells that do.
 bool is_mirrored(uint level) {
-  return (p.flags & FLAG_SYMMETRIC) != 0u && (level < ALL_ITEMS_LEVEL || level >= OUTER_LEVEL);
+  return (p.flags & FLAG_SYMMETRIC) != 0u && (level < ALL_ITEMS_LEVEL || level >= SCAN_LEVEL);
 }
 // The direction of the plane of the item's light and the axis: the first side of a box that lies along it.
 vec2 meridian_of(uint item) { return texelFetch(start_texels, int(4u * item_word(item, 11u) + 2u)).xy; }
@@ -151,9 +150,9 @@ uvec2 blocks_by_sides(uint level) {
   return uvec2(a_side, is_mirrored(level) ? (a_side + 1u) / 2u : a_side);
 }
 uint search_blocks(uint level) {
-  if (level == OUTER_LEVEL) return 2u * OUTER_SCANS;
+  if (level == SCAN_LEVEL) return FINE_SCANS + 2u;
   uvec2 blocks = blocks_by_sides(level);
-  return blocks.x * blocks.y + (level == 0u ? SCANS : 0u);
+  return blocks.x * blocks.y + (level == 0u || (level == 1u && is_mirrored(level)) ? 1u : 0u);  // a scan
 }
 uvec2 cells_of_level(uint level) { return COARSE_CELLS * blocks_by_sides(level); }
 vec4 searched_part(uint level, vec4 box) {
@@ -169,17 +168,17 @@ uvec4 cells_that_pass(uint number) { return texelFetch(found_texels, int(3u * nu
 uvec4 cells_that_may_pass(uint number) { return texelFetch(found_texels, int(3u * number + 2u)); }
 
 bool passes_at_level(uint group, uint level) { return cells_that_pass(number_of_level(group, level)).z > 0u; }
-// The level that found light first; OUTER_LEVEL + 1: it did so at the last wavelength.
+// The level that found light first, or the scan.
 uint first_level(uint group) {
-  for (uint level = OUTER_LEVEL; level < LEVELS; ++level)
+  for (uint level = SCAN_LEVEL; level < LEVELS; ++level)
     if (!passes_at_level(group, 0u) && passes_at_level(group, level)) return level;
   return 0u;
 }
 uint item_of_first_level(uint group, uint level) {
   uint first = group_word(group, 0u);
-  return level == 0u            ? group_word(group, 2u)
-         : level == OUTER_LEVEL ? first
-                                : first + group_word(group, 1u) - 1u;
+  return level == 0u || level == SCAN_LEVEL ? group_word(group, 2u)
+         : level == SCAN_LEVEL + 1u         ? first
+                                            : first + group_word(group, 1u) - 1u;
 }
 
 // The number of cells within bounds.

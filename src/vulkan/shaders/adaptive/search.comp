@@ -119,18 +119,32 @@ void inspect(uint item, RaySet rays, vec2 cell, float reach, uvec2 cells) {
   if (!(rays.scans ? on_line : is_cell && (any(open) || may_pass))) return;
   float around = any(open) && p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
   vec2 low = rays.scans ? cell - reach : cell - around, high = rays.scans ? cell + reach : cell + 1.0 + around;
-  report(rays.scans || any(open) ? PASSES : MAY_PASS, low, high, cells);
+  // What the scan of the next level finds counts where its grid finds nothing.
+  bool surely = rays.scans ? p.level != 1u : any(open);
+  report(surely ? PASSES : MAY_PASS, low, high, cells);
 }
 
 // Small pupils among failing rays lie where the plane of the light and the axis meets the entrance plane: a line that is
-// searched finely, as meridian_scan.cpp does, by a number of workgroups.
-RaySet rays_on_meridian(uint item, vec2 side, uint part, uint parts) {
+// searched finely, as meridian_scan.cpp does, by a number of workgroups. With axial symmetry it begins the half of the box
+// that is searched.
+RaySet rays_on_meridian(uint item, vec2 side, vec4 searched, uint part, uint parts) {
+  if (is_mirrored(p.level)) {
+    vec2 step_mm = vec2(searched.z / float(255u * parts), 0.0);
+    return RaySet(true, searched.xy + float(255u * part) * step_mm, step_mm, vec2(0.0), item_window(item), side);
+  }
   path_item = item;
   vec2 window = item_window(item), meridian = meridian_of(item), start = vec2(start_real(START_X), start_real(START_Y));
   vec2 along = vec2(dot(side, meridian), cross2(side, meridian)), corner = vec2(dot(side, start), cross2(side, start));
   float reach = length(max(abs(corner), abs(corner + window)));
   vec2 step_mm = along * (2.0 * reach / float(255u * parts));
   return RaySet(true, float(255u * part) * step_mm - reach * along - corner, step_mm, vec2(0.0), window, side);
+}
+
+// The next level scans the part of the meridian in its box, if what was found may be smaller than its cells.
+bool is_scanned_again(uint group) {
+  const uint few_cells = 4u;  // two or three from a scan
+  uint first = first_level(group);
+  return first != 0u || extent_of(cells_that_pass(number_of_level(group, first)), cells_of_level(first)) <= few_cells;
 }
 
 RaySet rays_of_block(vec4 searched, vec2 side, vec2 step_mm, uvec2 first_cell) {
@@ -143,13 +157,14 @@ void main() {
   uint blocks = search_blocks(p.level);
   uint group = linear_group() / blocks, block = linear_group() % blocks;
   if (group >= p.group_count) return;
-  bool is_outer = p.level == OUTER_LEVEL;
-  uint level = is_outer ? OUTER_LEVEL + block / OUTER_SCANS : p.level;
+  bool only_scans = p.level == SCAN_LEVEL;
+  uint level = only_scans ? SCAN_LEVEL + max(block + 1u, FINE_SCANS) - FINE_SCANS : p.level;
+  bool is_outer = level > SCAN_LEVEL;  // at the first or last wavelength
   uint item = item_of_first_level(group, searches_window(level) ? level : first_level(group));
-  if (is_outer && (item == group_word(group, 2u) || passes_at_level(group, 0u))) return;
+  if ((is_outer && item == group_word(group, 2u)) || (only_scans && passes_at_level(group, 0u))) return;
   uint number = number_of_level(group, level), k = gl_LocalInvocationIndex;
   vec4 box = searches_window(level) ? vec4(0.0, 0.0, item_window(item)) : box_of_level(group, level);
-  if (block % (is_outer ? OUTER_SCANS : blocks) == 0u && k < 4u) found[LEVEL_WORDS * number + k] = floatBitsToUint(box[k]);
+  if ((only_scans || block == 0u) && k < 4u) found[LEVEL_WORDS * number + k] = floatBitsToUint(box[k]);
   if (!(box.z > 0.0)) return;
   if (!searches_window(level) && level < LAST_LEVEL) {
     vec4 before = box_at(level == 1u ? number_of_level(group, first_level(group)) : number - 1u);
@@ -165,13 +180,13 @@ void main() {
   vec2 step_mm = searched.zw / vec2(cells);
   uint grid_blocks = cells.x * cells.y / (COARSE_CELLS * COARSE_CELLS), blocks_a_row = cells.x / COARSE_CELLS;
   uvec2 first_cell = COARSE_CELLS * uvec2(block % blocks_a_row, block / blocks_a_row);
-  bool scans = is_outer || block >= grid_blocks;
-  RaySet rays = rays_of_block(searched, side, step_mm, first_cell);
-  if (scans)
-    rays = is_outer ? rays_on_meridian(item, side, block % OUTER_SCANS, OUTER_SCANS)
-                    : rays_on_meridian(item, side, block - grid_blocks, SCANS);
+  bool scans = only_scans || block >= grid_blocks;
+  if (scans && p.level == 1u && !is_scanned_again(group)) return;
+  bool is_fine = level == SCAN_LEVEL;
+  RaySet rays = scans ? rays_on_meridian(item, side, searched, is_fine ? block : 0u, is_fine ? FINE_SCANS : 1u)
+                      : rays_of_block(searched, side, step_mm, first_cell);
   vec2 cell = scans ? (place_of(rays, k) - searched.xy) / step_mm : vec2(first_cell + gl_LocalInvocationID.xy);
-  bool all_items = level >= ALL_ITEMS_LEVEL && !is_outer;
+  bool all_items = !only_scans && (level >= ALL_ITEMS_LEVEL || (scans && level == 1u));
   uint first = all_items ? group_word(group, 0u) : item, count = all_items ? group_word(group, 1u) : 1u;
   if (k == 0u) atomicAdd(counters[COUNT_SEARCHED], count);
   for (uint each = first; each < first + count; ++each) {
