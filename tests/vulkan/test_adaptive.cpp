@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "device_frames.h"
 
@@ -22,30 +24,54 @@ void check_near(OnDevice& device, const LensState& lens, std::span<const Light> 
   test::check_agreement(device, lens, exact, got, {-20.0 * std::log10(error), flux_error});
 }
 
-// The same with as many wavelengths as each ghost needs.
-void check_by_need(OnDevice& device, const LensState& lens, const Light& light, const FrameSettings& settings,
-                   const test::Agreement& least) {
-  FrameSettings colour = settings;
-  colour.wavelengths = kAutoWavelengths;
-  const Flare exact = frame_by(AdaptiveOptions{5e-4}, lens, {&light, 1}, colour, device.cpu_cache);
-  const Flare got = frame_by(AdaptiveOptions{}, lens, {&light, 1}, colour, device.cache);
-  test::check_agreement(device, lens, exact, got, least);
-}
-
 LensState zoomed(const char* name, double focal_length_mm, double f_number) {
   const auto zoom = configure_lens(*find_lens(name), {.focal_length_mm = focal_length_mm, .f_number = f_number});
   REQUIRE(zoom.has_value());
   return *zoom;
 }
 
-// A ghost of which no ray passes at both ends of the spectrum. Drawn at three wavelengths, it passes only at the last.
-struct RedGhost {
-  LensState lens = zoomed("canon-70-200", 135.0, 8.0);
-  FrameSettings settings = settings_of(lens, 160, 90);
-  Light light{.direction = direction_from_angles(0.0533, 0.0225)};
-
-  RedGhost() { settings.selection = SelectList{{{10, 20}}}; }
+// Some ghosts of a light.
+struct SomeGhosts {
+  LensState lens;
+  FrameSettings settings;
+  Light light;
 };
+
+SomeGhosts some_ghosts(LensState lens, int width, int height, std::vector<Ghost> ghosts, Vec3 direction) {
+  FrameSettings settings = settings_of(lens, width, height);
+  settings.selection = SelectList{std::move(ghosts)};
+  return {std::move(lens), std::move(settings), {.direction = direction}};
+}
+
+// A ghost of which no ray passes at both ends of the spectrum. Drawn at three wavelengths, it passes only at the last.
+SomeGhosts red_ghost() {
+  return some_ghosts(zoomed("canon-70-200", 135.0, 8.0), 160, 90, {{10, 20}}, direction_from_angles(0.0533, 0.0225));
+}
+
+// A ghost whose pupil is long and thin, and grows towards red.
+SomeGhosts sliver() {
+  return some_ghosts(zoomed("nikon-80-200", 140.0, 8.0), 64, 36, {{9, 13}}, direction_from_angles(0.05137, 0.02166));
+}
+
+SomeGhosts of_fisheye(int width, int height, std::vector<Ghost> ghosts) {
+  return some_ghosts(lens_of("muller-fisheye-10", 0, 8.0), width, height, std::move(ghosts),
+                     direction_from_angles(0.43416, 0.17563));
+}
+
+void check_near(OnDevice& device, const SomeGhosts& some, double error, double flux_error) {
+  check_near(device, some.lens, {&some.light, 1}, some.settings, error, flux_error);
+}
+
+// The same with as many wavelengths as each ghost needs.
+void check_by_need(OnDevice& device, const SomeGhosts& some, const test::Agreement& least) {
+  FrameSettings settings = some.settings;
+  settings.wavelengths = kAutoWavelengths;
+  const std::span lights(&some.light, 1);
+  const Flare exact = frame_by(AdaptiveOptions{5e-4}, some.lens, lights, settings, device.cpu_cache);
+  const Flare got = frame_by(AdaptiveOptions{}, some.lens, lights, settings, device.cache);
+  test::check_agreement(device, some.lens, exact, got, least);
+  test::check_no_messages();
+}
 
 bool has_searched(const Flare& flare) {
   return std::ranges::any_of(flare.statistics.time_ms,
@@ -119,15 +145,13 @@ TEST_CASE("edges of ghosts lie where the CPU draws them, whatever bends the map 
 TEST_CASE("a ghost that the lens lets through at its last wavelength only is drawn on the device") {
   OnDevice device;
   if (!device.kept.device) return;
-  const RedGhost ghost;
-  check_near(device, ghost.lens, {&ghost.light, 1}, ghost.settings);
+  check_near(device, red_ghost(), 0.003, 0.03);
 }
 
 TEST_CASE("a ghost of which no ray passes at both ends of the spectrum has as many wavelengths as its smear needs") {
   OnDevice device;
   if (!device.kept.device) return;
-  const RedGhost ghost;
-  check_by_need(device, ghost.lens, ghost.light, ghost.settings, {60.0, 0.03});  // it has 0.85 of its red with three
+  check_by_need(device, red_ghost(), {60.0, 0.03});  // it has 0.85 of its red with three
 }
 
 TEST_CASE("a frame whose only light is a spot smaller than a pixel is drawn on the device") {
@@ -220,21 +244,14 @@ TEST_CASE("a frame whose polygons do not fit into a buffer is drawn in bands, an
 TEST_CASE("a spot of several colours is drawn on the device with as many wavelengths as it needs") {
   OnDevice device;
   if (!device.kept.device) return;
-  const LensState lens = lens_of("muller-fisheye-10", 0, 8.0);
-  FrameSettings settings = settings_of(lens, 160, 90);
-  settings.selection = SelectList{{{1, 3}, {6, 8}}};
-  check_by_need(device, lens, {.direction = direction_from_angles(0.43416, 0.17563)}, settings, {67.0, 0.01});
+  check_by_need(device, of_fisheye(160, 90, {{1, 3}, {6, 8}}), {67.0, 0.01});
 }
 
-// This pupil grows towards red. The light of bands that have the transmittance of the rays in common alone is up to 8
-// per cent off.
+// The light of bands that have the transmittance of the rays in common alone is up to 8 per cent off.
 TEST_CASE("a ghost whose pupil grows with the wavelength has its light on the device with as many as it needs") {
   OnDevice device;
   if (!device.kept.device) return;
-  const LensState lens = zoomed("nikon-80-200", 140.0, 8.0);
-  FrameSettings settings = settings_of(lens, 64, 36);
-  settings.selection = SelectList{{{9, 13}}};
-  check_by_need(device, lens, {.direction = direction_from_angles(0.05137, 0.02166)}, settings, {53.0, 0.04});
+  check_by_need(device, sliver(), {53.0, 0.04});
 }
 
 // The arms of this ghost's pupil are thinner than a cell of the search; without them it lacks 5 per cent.
@@ -253,11 +270,7 @@ TEST_CASE("thin parts of a pupil are drawn on the device") {
 TEST_CASE("the ends of a long, thin pupil are drawn on the device") {
   OnDevice device;
   if (!device.kept.device) return;
-  const LensState lens = zoomed("nikon-80-200", 140.0, 8.0);
-  FrameSettings settings = settings_of(lens, 64, 36);
-  settings.selection = SelectList{{{9, 13}}};
-  const Light light{.direction = direction_from_angles(0.05137, 0.02166)};
-  check_near(device, lens, {&light, 1}, settings, AdaptiveOptions{}.error, 0.005);
+  check_near(device, sliver(), AdaptiveOptions{}.error, 0.005);
   test::check_no_messages();
 }
 
@@ -265,13 +278,8 @@ TEST_CASE("the ends of a long, thin pupil are drawn on the device") {
 TEST_CASE("pupils smaller than a cell of the second level of the search are drawn on the device") {
   OnDevice device;
   if (!device.kept.device) return;
-  const LensState lens = lens_of("muller-fisheye-10", 0, 8.0);
-  FrameSettings settings = settings_of(lens, 64, 36);
-  const Light light{.direction = direction_from_angles(0.43416, 0.17563)};
-  for (const Ghost& ghost : {Ghost{1, 5}, Ghost{3, 9}}) {
-    settings.selection = SelectList{{ghost}};
-    check_near(device, lens, {&light, 1}, settings, AdaptiveOptions{}.error, 0.01);
-  }
+  for (const Ghost& ghost : {Ghost{1, 5}, Ghost{3, 9}})
+    check_near(device, of_fisheye(64, 36, {ghost}), AdaptiveOptions{}.error, 0.01);
   test::check_no_messages();
 }
 

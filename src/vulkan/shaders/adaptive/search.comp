@@ -119,7 +119,7 @@ void inspect(uint item, RaySet rays, vec2 cell, float reach, uvec2 cells) {
   if (!(rays.scans ? on_line : is_cell && (any(open) || may_pass))) return;
   float around = any(open) && p.level < 2u ? 1.0 : 0.0;  // light also passes beside the rays that do
   vec2 low = rays.scans ? cell - reach : cell - around, high = rays.scans ? cell + reach : cell + 1.0 + around;
-  // What the scan of the next level finds counts where its grid finds nothing.
+  // Light that the second level's scan finds counts only if the grid of that level finds none.
   bool surely = rays.scans ? p.level != 1u : any(open);
   report(surely ? PASSES : MAY_PASS, low, high, cells);
 }
@@ -140,7 +140,7 @@ RaySet rays_on_meridian(uint item, vec2 side, vec4 searched, uint part, uint par
   return RaySet(true, float(255u * part) * step_mm - reach * along - corner, step_mm, vec2(0.0), window, side);
 }
 
-// The next level scans the part of the meridian in its box, if what was found may be smaller than its cells.
+// The second level scans the meridian in its box if what the first one found may be smaller than its cells.
 bool is_scanned_again(uint group) {
   const uint few_cells = 4u;  // two or three from a scan
   uint first = first_level(group);
